@@ -1,0 +1,97 @@
+"""Reading and writing: the straight way from a file to a Document and back."""
+
+from __future__ import annotations
+
+from os import PathLike, fspath
+from typing import TYPE_CHECKING, Any, BinaryIO
+
+from lxml import etree
+
+from colladaphy.document.document import Document
+from colladaphy.errors import SchemaError
+from colladaphy.findings import Report
+from colladaphy.schema import gate
+from colladaphy.source import Limits, Parsed, Source, pack, parse, save
+
+if TYPE_CHECKING:
+    from colladaphy.mapper import WriteOptions
+    from colladaphy.world import World
+
+__all__ = ["document_bytes", "read", "write"]
+
+Output = str | PathLike[str] | BinaryIO
+
+
+def read(
+    source: Source,
+    *,
+    repair: bool = False,
+    convention: str = "auto",
+    limits: Limits | None = None,
+) -> Document:
+    """Read a COLLADA document: a path, bytes or a binary file object, .dae or .zae.
+
+    Only schema-valid COLLADA 1.5 is accepted, unless `repair` is asked for: then older versions
+    are upgraded, known faults mended and the ways of other writers (`convention`) understood, and
+    everything that was changed is in the document's report. Raises InputError, XmlError or
+    SchemaError with all findings.
+    """
+    parsed = parse(source) if limits is None else parse(source, limits)
+    return document_of(parsed, repair=repair, convention=convention, family={})
+
+
+def document_of(
+    parsed: Parsed, *, repair: bool, convention: str, family: dict[str, Document]
+) -> Document:
+    """The Document of a parsed file; see `read`. `family` are the documents open already."""
+    report = Report(parsed.file)
+    tree = parsed.tree
+    if repair:
+        from colladaphy.conform import conform
+
+        tree, changes = conform(tree, file=parsed.file, convention=convention)
+        report.extend(changes)
+    faults = gate(tree)
+    report.extend(faults)
+    if faults:
+        raise SchemaError(report.findings)
+
+    def opener(file: str) -> Document:
+        other = parsed.parse_relative(file)
+        return document_of(other, repair=repair, convention=convention, family=family)
+
+    return Document(tree, file=parsed.file, report=report, opener=opener, family=family)
+
+
+def write(
+    content: World | Document, target: Output, *, options: WriteOptions | None = None
+) -> None:
+    """Write a World or a Document to a .dae or .zae file, or to a binary file object.
+
+    Nothing is written that is not schema-valid COLLADA 1.5, and a file is replaced as a whole or
+    not at all. Raises SchemaError or OutputError.
+    """
+    if isinstance(content, Document):
+        data = document_bytes(content)
+    else:
+        from colladaphy.mapper import store
+
+        data = store(content, options)
+    if _is_archive(target):
+        data = pack(data)
+    save(data, target)
+
+
+def _is_archive(target: Any) -> bool:
+    if hasattr(target, "write"):
+        target = getattr(target, "name", "")
+    return isinstance(target, str | PathLike) and fspath(target).lower().endswith(".zae")
+
+
+def document_bytes(document: Document) -> bytes:
+    """The document as UTF-8, checked again as it now is."""
+    tree = document.tree
+    faults = gate(tree)
+    if faults:
+        raise SchemaError(faults)
+    return etree.tostring(tree, encoding="UTF-8", xml_declaration=True)

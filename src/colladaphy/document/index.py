@@ -1,0 +1,76 @@
+"""Finding elements by id and by sid without searching: one pass over the tree, then dictionaries.
+
+COLLADA 1.5 §Address syntax; the thesis searched the tree for every reference (5.5), which made its
+load superlinear (7).
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+
+from lxml import etree
+
+from colladaphy.document.names import c
+
+__all__ = ["Index"]
+
+_INSTANCE_NODE = c("instance_node")
+
+
+class Index:
+    """Ids, sids and instanced nodes of one tree."""
+
+    def __init__(self, tree: etree._ElementTree) -> None:
+        self._tree = tree
+        self._ids: dict[str, etree._Element] | None = None
+        self._repeated: dict[str, int] = {}
+        self._scopes: dict[etree._Element, dict[str, etree._Element]] = {}
+        self._instances: list[etree._Element] | None = None
+
+    @property
+    def ids(self) -> dict[str, etree._Element]:
+        """The first element of every id, in document order."""
+        if self._ids is None:
+            ids: dict[str, etree._Element] = {}
+            for element in _elements(self._tree.xpath("//*[@id]")):
+                name = element.get("id", "")
+                if name in ids:
+                    self._repeated[name] = self._repeated.get(name, 1) + 1
+                else:
+                    ids[name] = element
+            self._ids = ids
+        return self._ids
+
+    def count(self, name: str) -> int:
+        """How many elements have this id (more than one only in an invalid document)."""
+        return self._repeated.get(name, 1) if name in self.ids else 0
+
+    def within(self, scope: etree._Element, sid: str) -> etree._Element | None:
+        """The element of a sid below `scope`: the nearest first, breadth before depth."""
+        found = self._scopes.get(scope)
+        if found is None:
+            found = {}
+            waiting = deque(scope)
+            while waiting:
+                element = waiting.popleft()
+                name = element.get("sid")
+                if name is not None:
+                    found.setdefault(name, element)
+                waiting.extend(element)
+            self._scopes[scope] = found
+        return found.get(sid)
+
+    @property
+    def node_instances(self) -> list[etree._Element]:
+        """All instance_node elements in document order."""
+        if self._instances is None:
+            self._instances = list(self._tree.iter(_INSTANCE_NODE))
+        return self._instances
+
+
+def _elements(found: object) -> Iterator[etree._Element]:
+    if isinstance(found, list):
+        for element in found:
+            if isinstance(element, etree._Element):
+                yield element
