@@ -19,7 +19,7 @@ angle = st.one_of(st.floats(-720, 720), st.sampled_from([0.0, 90.0, 180.0, -180.
 def test_rotation_follows_rodrigues(direction: tuple[float, float, float], degrees: float) -> None:
     u = np.array(direction) / np.linalg.norm(direction)
     t = math.radians(degrees)
-    cross = np.cross(np.eye(3), u) * -1
+    cross = -np.cross(np.eye(3), u).T
     expected = np.eye(3) + math.sin(t) * cross + (1 - math.cos(t)) * cross @ cross
     assert np.allclose(frames.rotation((*direction, degrees))[:3, :3], expected, atol=1e-12)
 
