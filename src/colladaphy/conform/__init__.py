@@ -1,0 +1,27 @@
+"""conform: the door through which the world's files come in.
+
+`conform` turns a foreign document into schema-valid COLLADA 1.5 with the standard's own meaning:
+1.4 is upgraded, deviations are repaired, and what a producer meant differently (frames, units,
+references) is rewritten. Every change is a finding. What cannot stay is kept in an extra.
+
+References of the result have one form each:
+
+- ``instance_rigid_body/@body`` and ``instance_rigid_constraint/@constraint``: the plain sid of a
+  body or constraint in the instanced physics model (the schema allows nothing else there);
+- ``attachment/@rigid_body`` and ``ref_attachment/@rigid_body``: ``model-id/sid``, an address as
+  the standard's SID addressing has it (an id, then sids), with the sid of an instance between
+  (``model-id/instance-sid/sid``) for a body of a model instanced in the model; ``#node-id`` for a
+  visual node; and ``""`` for the world.
+
+Content that conform made up or moved is marked in the namespace ``urn:colladaphy:conform:1``:
+``moved``, ``text``, ``value`` and ``attribute`` hold what had no place, ``assumed`` marks a shape
+that no file gave (``<extra><technique profile="colladaphy"><assumed/>``), and ``convention`` in the
+asset says whose meaning was translated, so that nothing is translated twice.
+"""
+
+from __future__ import annotations
+
+from colladaphy.conform.pipeline import conform
+from colladaphy.conform.versions import detect_version
+
+__all__ = ["conform", "detect_version"]

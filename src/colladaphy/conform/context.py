@@ -1,0 +1,265 @@
+"""What a rule works with: the tree, the findings, where things go that have no place."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Collection, Iterator
+
+from lxml import etree
+
+from colladaphy.conform.grammar import NAMESPACE, ComplexType, root_declaration
+from colladaphy.findings import Finding, Rule
+
+__all__ = ["CONFORM", "NS", "Context", "local"]
+
+NS = "{" + NAMESPACE + "}"
+CONFORM = "urn:colladaphy:conform:1"
+
+
+def local(element: etree._Element) -> str:
+    """The local name of an element; "" for a comment or a processing instruction."""
+    tag = element.tag
+    return tag.rpartition("}")[2] if isinstance(tag, str) else ""
+
+
+class Context:
+    """One run of conform over one document.
+
+    `only` limits the run to rules of these codes. `note` records a change; a rule asks `wants`
+    before it makes one.
+    """
+
+    def __init__(
+        self,
+        root: etree._Element,
+        *,
+        file: str | None = None,
+        only: Collection[str] | None = None,
+        origin: str = "colladaphy-repair",
+    ) -> None:
+        self.root = root
+        self.file = file
+        self.findings: list[Finding] = []
+        self.origin = origin
+        self.far_lines: dict[etree._Element, int] = {}
+        self._only = None if only is None else frozenset(only)
+        self._places: dict[tuple[etree._Element, str], etree._Element] = {}
+        self._ids: dict[str, etree._Element] | None = None
+
+    def wants(self, rule: Rule) -> bool:
+        """Whether changes of this rule are wanted in this run."""
+        return self._only is None or rule.code in self._only
+
+    def note(self, rule: Rule, element: etree._Element | None, message: str) -> None:
+        """Record a finding at `element`, as it stands now."""
+        line = None
+        node = element
+        while node is not None and line is None:
+            line = self.far_lines.get(node) or node.sourceline
+            node = node.getparent()
+        self.findings.append(rule.at(element, message, file=self.file, line=line))
+
+    # -- finding things -----------------------------------------------------------------------
+
+    def all(self, *names: str) -> list[etree._Element]:
+        """Every standard element of these names outside techniques' free content, in order."""
+        tags = [NS + name for name in names]
+        return [
+            element
+            for element in self.root.iter(*tags)
+            if not any(local(above) == "technique" for above in element.iterancestors())
+            or self._is_effect_technique(element)
+        ]
+
+    @staticmethod
+    def _is_effect_technique(element: etree._Element) -> bool:
+        for above in element.iterancestors(NS + "technique"):
+            parent = above.getparent()
+            if parent is None or not local(parent).startswith("profile_"):
+                return False
+        return True
+
+    @property
+    def ids(self) -> dict[str, etree._Element]:
+        """The first element of every id; made anew after `forget_ids`."""
+        if self._ids is None:
+            self._ids = {}
+            for element in self.root.iter(etree.Element):
+                name = element.get("id")
+                if name is not None:
+                    self._ids.setdefault(name, element)
+        return self._ids
+
+    def forget_ids(self) -> None:
+        """Let `ids` be computed anew: ids were changed, added or removed."""
+        self._ids = None
+
+    def by_url(self, url: str | None) -> etree._Element | None:
+        """The element of this document that a url points to."""
+        if not url:
+            return None
+        return self.ids.get(url[1:] if url.startswith("#") else url)
+
+    def new_id(self, wish: str) -> str:
+        """An id like `wish` that is free; it counts as taken from now on."""
+        name, number = wish, 2
+        while name in self.ids:
+            name, number = f"{wish}-{number}", number + 1
+        self.ids[name] = self.root
+        return name
+
+    # -- making things ------------------------------------------------------------------------
+
+    def make(self, name: str, text: str | None = None, **attributes: str) -> etree._Element:
+        """A new element of the standard's namespace, in the prefix the document uses."""
+        element = etree.Element(NS + name, nsmap={self.root.prefix: NAMESPACE})
+        element.text = text
+        for key, value in attributes.items():
+            element.set(key, value)
+        return element
+
+    def library(self, kind: str) -> etree._Element:
+        """The first library of a kind (``geometries``), which is made where there is none."""
+        found = self.root.find(NS + "library_" + kind)
+        if found is None:
+            found = self.make("library_" + kind)
+            before = next(
+                (i for i, child in enumerate(self.root) if local(child) in ("scene", "extra")),
+                len(self.root),
+            )
+            insert(self.root, before, found)
+        return found
+
+    # -- keeping things -----------------------------------------------------------------------
+
+    def place(self, near: etree._Element, profile: str | None = None) -> etree._Element:
+        """A technique in an extra of `near` or of the nearest ancestor that may have one."""
+        profile = profile or self.origin
+        owner: etree._Element | None = near
+        while owner is not None and not self._may_have_extra(owner):
+            owner = owner.getparent()
+        owner = self.root if owner is None else owner
+        if (owner, profile) not in self._places:
+            extra = self.make("extra")
+            technique = self.make("technique", profile=profile)
+            extra.append(technique)
+            append(owner, extra)
+            self._places[owner, profile] = technique
+        return self._places[owner, profile]
+
+    def stash(self, element: etree._Element, profile: str | None = None) -> etree._Element:
+        """Move `element` into an extra near its place, with a note of where it stood."""
+        parent = element.getparent()
+        assert parent is not None
+        technique = self.place(parent, profile)
+        owner = technique.getparent()
+        home = None if owner is None else owner.getparent()
+        moved = etree.SubElement(technique, f"{{{CONFORM}}}moved", nsmap={None: CONFORM})
+        if home is not None and home is not parent:
+            moved.set("from", path_below(home, parent))
+        remove(element)
+        moved.append(element)
+        return moved
+
+    def keep(self, near: etree._Element, kind: str, **values: str) -> None:
+        """Keep a value that has no place (an attribute, a text) in an extra near its element."""
+        technique = self.place(near)
+        owner = technique.getparent()
+        home = None if owner is None else owner.getparent()
+        kept = etree.SubElement(technique, f"{{{CONFORM}}}{kind}", nsmap={None: CONFORM})
+        if home is not None and home is not near:
+            kept.set("from", path_below(home, near))
+        for key, value in values.items():
+            kept.set(key, value)
+
+    def _may_have_extra(self, element: etree._Element) -> bool:
+        kind = type_of(element)
+        return kind is not None and "extra" in kind.children
+
+
+def type_of(element: etree._Element) -> ComplexType | None:
+    """The complex type of a standard element where it stands; None where the schema knows none."""
+    steps = [element, *element.iterancestors()]
+    declaration = root_declaration()
+    for step in reversed(steps[:-1]):
+        kind = declaration.type
+        if not isinstance(kind, ComplexType) or step.tag != NS + local(step):
+            return None
+        found = kind.children.get(local(step))
+        if found is None:
+            return None
+        declaration = found
+    return declaration.type if isinstance(declaration.type, ComplexType) else None
+
+
+def path_below(top: etree._Element, element: etree._Element) -> str:
+    """The path from `top` down to `element`, with ids, sids or positions."""
+    steps: list[str] = []
+    node: etree._Element | None = element
+    while node is not None and node is not top:
+        name = local(node)
+        for key in ("id", "sid"):
+            if value := node.get(key):
+                name += f"[@{key}='{value}']"
+                break
+        else:
+            position = sum(1 for _ in node.itersiblings(node.tag, preceding=True)) + 1
+            name += f"[{position}]" if position > 1 else ""
+        steps.append(name)
+        node = node.getparent()
+    return "/".join(reversed(steps))
+
+
+def insert(parent: etree._Element, index: int, element: etree._Element) -> None:
+    """Insert a child, indented as its siblings are."""
+    blank = parent.text if len(parent) else None
+    if blank is not None and not blank.strip() and "\n" in blank:
+        if index >= len(parent):
+            last = parent[-1]
+            element.tail, last.tail = last.tail, blank
+        else:
+            element.tail = blank
+    parent.insert(index, element)
+
+
+def append(parent: etree._Element, element: etree._Element) -> None:
+    """Append a child, indented as its siblings are."""
+    insert(parent, len(parent), element)
+
+
+def remove(element: etree._Element) -> None:
+    """Take an element out of its parent; the text after it stays, and the indentation fits."""
+    parent = element.getparent()
+    if parent is None:
+        return
+    tail = element.tail
+    before = element.getprevious()
+    if tail and tail.strip():
+        if before is None:
+            parent.text = (parent.text or "") + tail
+        else:
+            before.tail = (before.tail or "") + tail
+    elif element.getnext() is None and tail is not None:
+        if before is None:
+            parent.text = tail
+        else:
+            before.tail = tail
+    element.tail = None
+    parent.remove(element)
+
+
+def rename(element: etree._Element, name: str) -> None:
+    """Give a standard element another local name."""
+    element.tag = NS + name
+
+
+def children(element: etree._Element, *names: str) -> Iterator[etree._Element]:
+    """The children of these local names, in document order."""
+    return element.iterchildren(*(NS + name for name in names))
+
+
+def clone(element: etree._Element) -> etree._Element:
+    """A copy of an element without the text after it."""
+    twin = copy.deepcopy(element)
+    twin.tail = None
+    return twin

@@ -1,0 +1,257 @@
+"""Ids and sids: well formed, unique, and found again by what refers to them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from lxml import etree
+
+from colladaphy.conform import rules
+from colladaphy.conform.context import NS, Context, local
+from colladaphy.conform.lexical import name_from
+
+__all__ = ["mend_ids", "mend_sids"]
+
+_NCNAME = re.compile(r"[^\W\d][\w.\-]*")
+# Attributes that hold a url, and those that hold a path of an id and sids.
+_URLS = ("url", "source", "target", "parent", "convex_hull_of", "proxy", "camera_node")
+_PATHS = ("target", "rigid_body", "axis", "joint", "link", "node", "ref", "body", "constraint")
+_BARE = ("url", "source", "parent", "convex_hull_of", "proxy", "camera_node")
+_TEXTS = ("skeleton", "SIDREF", "param")
+_LISTS = ("IDREF_array", "SIDREF_array")
+
+
+def standard_elements(root: etree._Element) -> Iterator[etree._Element]:
+    """Every element but those inside the free content of techniques."""
+    stack = [root]
+    while stack:
+        element = stack.pop()
+        yield element
+        if local(element) == "technique" and element.get("profile") is not None:
+            continue
+        stack.extend(reversed(list(element.iterchildren(tag=etree.Element))))
+
+
+def mend_ids(context: Context) -> None:
+    """Make every id an NCName that occurs once, and rewrite what refers to it."""
+    taken: dict[str, list[etree._Element]] = {}
+    for element in standard_elements(context.root):
+        name = element.get("id")
+        if name is not None:
+            taken.setdefault(name, []).append(element)
+    changed: dict[str, _Scope] = {}
+    for name, owners in list(taken.items()):
+        fresh = _mend_id(context, name, owners, taken)
+        if any(new != name for _, new in fresh):
+            changed[name] = changed[name.strip()] = _Scope(fresh)
+    if changed:
+        _rewrite(context.root, changed)
+        context.forget_ids()
+
+
+def _mend_id(
+    context: Context,
+    name: str,
+    owners: list[etree._Element],
+    taken: dict[str, list[etree._Element]],
+) -> list[tuple[etree._Element, str]]:
+    form = name.strip()
+    well_formed = _NCNAME.fullmatch(form) is not None
+    fresh: list[tuple[etree._Element, str]] = []
+    for position, owner in enumerate(owners):
+        if position == 0 and well_formed:
+            fresh.append((owner, name))
+            continue
+        rule = rules.ID_DUPLICATE if position else rules.ID_FORM
+        if not context.wants(rule):
+            continue
+        if not form:
+            del owner.attrib["id"]
+            context.note(rules.ID_FORM, owner, f"the empty id of <{local(owner)}> was removed")
+            continue
+        new = _free(form if well_formed else name_from(form), taken, position)
+        taken[new] = [owner]
+        owner.set("id", new)
+        fresh.append((owner, new))
+        what = "was used before" if position else "is no NCName"
+        context.note(rule, owner, f"id {name!r} of <{local(owner)}> {what}; is now {new!r}")
+    return fresh
+
+
+def _free(wish: str, taken: dict[str, list[etree._Element]], position: int) -> str:
+    if not position and wish not in taken:
+        return wish
+    number = position + 1
+    while f"{wish}-{number}" in taken:
+        number += 1
+    return f"{wish}-{number}"
+
+
+class _Scope:
+    """For one id of the file: the definitions it had, and which of them a reference means."""
+
+    def __init__(self, owners: list[tuple[etree._Element, str]]) -> None:
+        self.first = owners[0][1]
+        self.below: dict[etree._Element, str] = {}
+        if len(owners) > 1:
+            for owner, name in owners:
+                for above in (owner, *owner.iterancestors()):
+                    self.below.setdefault(above, name)
+
+    def find(self, element: etree._Element) -> str:
+        """The new name of the definition that shares most ancestors with `element`."""
+        if self.below:
+            for above in (element, *element.iterancestors()):
+                if above in self.below:
+                    return self.below[above]
+        return self.first
+
+
+def _rewrite(root: etree._Element, changed: dict[str, _Scope]) -> None:
+    for element in standard_elements(root):
+        for key, value in list(element.attrib.items()):
+            if key in _URLS or key in _PATHS:
+                new = _reference(element, str(value), changed, bare=key in _BARE)
+                if new is not None:
+                    element.set(key, new)
+        name = local(element)
+        if name in _TEXTS or (name == "init_from" and _in_surface(element)):
+            bare = name == "init_from"
+            new = _reference(element, (element.text or "").strip(), changed, bare=bare)
+            if new is not None:
+                element.text = new
+        elif name in _LISTS:
+            parts = (element.text or "").split()
+            new_parts = [_reference(element, p, changed, bare=True) or p for p in parts]
+            if parts != new_parts:
+                element.text = " ".join(new_parts)
+
+
+def _in_surface(element: etree._Element) -> bool:
+    parent = element.getparent()
+    return parent is not None and local(parent) == "surface"
+
+
+def _reference(
+    element: etree._Element, value: str, changed: dict[str, _Scope], *, bare: bool
+) -> str | None:
+    """`value` with the id in it replaced; `bare` where an id may stand without a '#'."""
+    mark = "#" if value.startswith("#") else ""
+    body = value[len(mark) :]
+    scope = changed.get(body) if mark or bare else None
+    if scope is not None:
+        return mark + scope.find(element)
+    head, slash, rest = body.partition("/")
+    scope = changed.get(head) if slash and head not in (".", "") else None
+    return None if scope is None else f"{mark}{scope.find(element)}{slash}{rest}"
+
+
+def mend_sids(context: Context) -> None:
+    """Make every sid an NCName; empty ones go, and physics sids get a name where one is needed."""
+    renamed: dict[str, str] = {}
+    for element in standard_elements(context.root):
+        sid = element.get("sid")
+        if sid is None:
+            continue
+        if not sid.strip():
+            _empty_sid(context, element)
+        elif not _NCNAME.fullmatch(sid.strip()) and context.wants(rules.SID_FORM):
+            new = name_from(sid)
+            renamed[sid.strip()] = new
+            element.set("sid", new)
+            message = f"sid {sid!r} of <{local(element)}> is no NCName; is now {new!r}"
+            context.note(rules.SID_FORM, element, message)
+    if renamed:
+        _rename_sids(context.root, renamed)
+    _unique_sids(context)
+
+
+def _empty_sid(context: Context, element: etree._Element) -> None:
+    if not context.wants(rules.SID_EMPTY):
+        return
+    del element.attrib["sid"]
+    kind = local(element)
+    if kind == "technique":
+        element.set("sid", "common")
+        message = "the sid of <technique> was empty; is now 'common'"
+    else:
+        message = f"the empty sid of <{kind}> was removed"
+    context.note(rules.SID_EMPTY, element, message)
+
+
+def _rename_sids(root: etree._Element, renamed: dict[str, str]) -> None:
+    """Rewrite references that end in an old sid, by the longest old sid that fits."""
+    names = sorted(renamed, key=len, reverse=True)
+    pattern = re.compile("(^|[/#])(" + "|".join(map(re.escape, names)) + r")(?=$|[/.(])")
+
+    def new(value: str) -> str:
+        return pattern.sub(lambda match: match[1] + renamed[match[2]], value)
+
+    for element in standard_elements(root):
+        for key, value in list(element.attrib.items()):
+            if key in _PATHS and new(str(value)) != value:
+                element.set(key, new(str(value)))
+        name = local(element)
+        if (
+            (name in _TEXTS or name in _LISTS)
+            and element.text
+            and new(element.text) != element.text
+        ):
+            element.text = new(element.text)
+
+
+def _unique_sids(context: Context) -> None:
+    """Siblings have different sids; where bodies shared one, the k-th instance means the k-th."""
+    for parent in standard_elements(context.root):
+        if len(parent) < 2:
+            continue
+        seen: dict[str, list[etree._Element]] = {}
+        for element in parent.iterchildren(tag=etree.Element):
+            if sid := element.get("sid"):
+                seen.setdefault(sid, []).append(element)
+        for sid, owners in list(seen.items()):
+            if len(owners) > 1 and context.wants(rules.SID_DUPLICATE):
+                names = _separate(context, sid, owners, seen)
+                for kind in ("rigid_body", "rigid_constraint"):
+                    same = [(o, n) for o, n in zip(owners, names, strict=True) if local(o) == kind]
+                    if len(same) > 1:
+                        _distribute(context, parent, kind, sid, [name for _, name in same])
+
+
+def _separate(
+    context: Context,
+    sid: str,
+    owners: list[etree._Element],
+    seen: dict[str, list[etree._Element]],
+) -> list[str]:
+    names = [sid]
+    for owner in owners[1:]:
+        number = 2
+        while f"{sid}-{number}" in seen:
+            number += 1
+        names.append(f"{sid}-{number}")
+        seen[names[-1]] = [owner]
+        owner.set("sid", names[-1])
+        message = f"sid {sid!r} of <{local(owner)}> was used before here; is now {names[-1]!r}"
+        context.note(rules.SID_DUPLICATE, owner, message)
+    return names
+
+
+def _distribute(
+    context: Context, model: etree._Element, kind: str, sid: str, names: list[str]
+) -> None:
+    attribute = "body" if kind == "rigid_body" else "constraint"
+    for instance in context.all("instance_physics_model"):
+        if instance.get("url", "").lstrip("#") != model.get("id"):
+            continue
+        users = [
+            user
+            for user in instance.iterchildren(NS + "instance_" + kind)
+            if user.get(attribute) == sid
+        ]
+        for user, name in zip(users, names, strict=False):
+            if name != sid:
+                user.set(attribute, name)
+                message = f"{attribute}={sid!r} is the next of that sid; is now {name!r}"
+                context.note(rules.SID_DUPLICATE, user, message)

@@ -1,0 +1,379 @@
+"""The generic repair: make every element fit its content model, and lose nothing.
+
+It works from the leaves up. Whatever does not fit is reordered, respelled or completed where the
+schema says how; what has no place moves into an extra. Rules that know more than the schema (what
+a value means, what a reference was) have run before.
+"""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from colladaphy.conform import rules
+from colladaphy.conform.assumptions import assumed_attribute, assumed_element
+from colladaphy.conform.context import NS, Context, append, local
+from colladaphy.conform.grammar import (
+    Attribute,
+    ComplexType,
+    Declaration,
+    Group,
+    SimpleType,
+    root_declaration,
+)
+from colladaphy.conform.lexical import is_valid, mend
+
+__all__ = ["normalise"]
+
+_XSI = "{http://www.w3.org/2001/XMLSchema-instance}"
+_Pool = dict[str, list[etree._Element]]
+
+
+def normalise(context: Context) -> None:
+    """Make the document schema-valid, as far as the wanted rules allow."""
+    _Normaliser(context).run()
+
+
+class _Normaliser:
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.hopeless: dict[etree._Element, str] = {}
+
+    def run(self) -> None:
+        """Handle every standard element, children before parents."""
+        order = [(self.context.root, root_declaration())]
+        for element, declaration in order:
+            kind = declaration.type
+            if isinstance(kind, ComplexType):
+                for child in element.iterchildren(tag=etree.Element):
+                    known = kind.children.get(local(child))
+                    if known is not None and child.tag == NS + known.name:
+                        order.append((child, known))
+        for element, declaration in reversed(order):
+            if isinstance(declaration.type, SimpleType):
+                self._plain(element, declaration, declaration.type)
+            else:
+                self._complex(element, declaration, declaration.type)
+
+    # -- elements -----------------------------------------------------------------------------
+
+    def _plain(self, element: etree._Element, declaration: Declaration, kind: SimpleType) -> None:
+        for name in list(element.attrib):
+            self._unknown_attribute(element, str(name))
+        self._only_text(element)
+        self._value(element, declaration, kind)
+
+    def _complex(
+        self, element: etree._Element, declaration: Declaration, kind: ComplexType
+    ) -> None:
+        self._attributes(element, kind)
+        if kind.anything:
+            return
+        if kind.value is not None:
+            self._only_text(element)
+            self._value(element, declaration, kind.value)
+        else:
+            self._stray_text(element)
+            self._content(element, kind)
+            if kind.content is None and element.text and not element.text.strip():
+                element.text = None  # not even white space may stand in an empty type
+
+    def _only_text(self, element: etree._Element) -> None:
+        for child in list(element.iterchildren(tag=etree.Element)):
+            self._unexpected(child, element)
+
+    def _stray_text(self, element: etree._Element) -> None:
+        holders = [element.text, *(child.tail for child in element)]
+        if not any(text and text.strip() for text in holders):
+            return
+        if not self.context.wants(rules.UNEXPECTED_TEXT):
+            return
+        text = " ".join(" ".join(holders_text.split()) for holders_text in holders if holders_text)
+        element.text = None
+        for child in element:
+            child.tail = None
+        self.context.note(
+            rules.UNEXPECTED_TEXT, element, f"text {_short(text)} moved into an extra"
+        )
+        self.context.keep(element, "text", value=_xml_text(text))
+
+    def _value(self, element: etree._Element, declaration: Declaration, kind: SimpleType) -> None:
+        text = element.text or ""
+        if len(element):  # comments: the value is the text around them
+            text += "".join(child.tail or "" for child in element)
+        if not text and declaration.default is not None:
+            return
+        if is_valid(text, kind):
+            return
+        mended, less = mend(text, kind)
+        name = local(element)
+        if mended is not None and self.context.wants(rules.LEXICAL_FORM):
+            self._set_text(element, mended)
+            message = f"<{name}> was {_short(text)}, is now {_short(mended)}"
+            self.context.note(rules.LEXICAL_FORM, element, message)
+            if less:
+                self.context.keep(element, "value", value=_xml_text(text))
+        elif mended is None and self.context.wants(rules.UNREADABLE_VALUE):
+            if declaration.default is None:
+                self.hopeless[element] = f"its value {_short(text)} is no {kind.name}"
+                return
+            self._set_text(element, None)
+            message = (
+                f"<{name}> was {_short(text)}, which is no {kind.name}; "
+                f"the default {declaration.default} is assumed"
+            )
+            self.context.note(rules.UNREADABLE_VALUE, element, message)
+            self.context.keep(element, "value", value=_xml_text(text))
+
+    @staticmethod
+    def _set_text(element: etree._Element, text: str | None) -> None:
+        element.text = text
+        for child in element:
+            child.tail = None
+
+    def _unexpected(self, child: etree._Element, parent: etree._Element) -> None:
+        if not self.context.wants(rules.UNEXPECTED_ELEMENT):
+            return
+        message = f"<{local(child)}> has no place in <{local(parent)}>; moved into an extra"
+        self.context.note(rules.UNEXPECTED_ELEMENT, child, message)
+        self.context.stash(child)
+
+    # -- attributes ---------------------------------------------------------------------------
+
+    def _attributes(self, element: etree._Element, kind: ComplexType) -> None:
+        for key, value in list(element.attrib.items()):
+            name = str(key)
+            known = kind.attributes.get(name)
+            if known is None:
+                self._unknown_attribute(element, name)
+            elif not is_valid(str(value), known.type):
+                self._attribute_value(element, known, str(value))
+        for attribute in kind.attributes.values():
+            if attribute.required and attribute.name not in element.attrib:
+                self._missing_attribute(element, attribute)
+
+    def _unknown_attribute(self, element: etree._Element, name: str) -> None:
+        if name.startswith(_XSI) or not self.context.wants(rules.UNKNOWN_ATTRIBUTE):
+            return
+        value = str(element.attrib.pop(name))
+        message = f"attribute {name}={_short(value)} of <{local(element)}> moved into an extra"
+        self.context.note(rules.UNKNOWN_ATTRIBUTE, element, message)
+        self.context.keep(element, "attribute", name=name, value=value)
+
+    def _attribute_value(self, element: etree._Element, known: Attribute, value: str) -> None:
+        mended, less = mend(value, known.type)
+        label = f"attribute {known.name} of <{local(element)}>"
+        if mended is not None:
+            if not self.context.wants(rules.LEXICAL_FORM):
+                return
+            element.set(known.name, mended)
+            message = f"{label} was {_short(value)}, is now {_short(mended)}"
+            self.context.note(rules.LEXICAL_FORM, element, message)
+        elif self.context.wants(rules.UNREADABLE_VALUE):
+            del element.attrib[known.name]
+            message = f"{label} was {_short(value)}, which is no {known.type.name}; removed"
+            self.context.note(rules.UNREADABLE_VALUE, element, message)
+        if (less or mended is None) and value.strip():
+            self.context.keep(element, "attribute", name=known.name, value=value)
+
+    def _missing_attribute(self, element: etree._Element, attribute: Attribute) -> None:
+        if not self.context.wants(rules.MISSING_ATTRIBUTE):
+            return
+        found = assumed_attribute(self.context, element, attribute.name)
+        if found is None:
+            self.hopeless[element] = f"it has no attribute {attribute.name}"
+            return
+        value, why = found
+        element.set(attribute.name, value)
+        message = f"<{local(element)}> had no attribute {attribute.name}; {value!r} assumed: {why}"
+        self.context.note(rules.MISSING_ATTRIBUTE, element, message)
+
+    # -- content models -----------------------------------------------------------------------
+
+    def _content(self, element: etree._Element, kind: ComplexType) -> None:
+        kids = list(element.iterchildren(tag=etree.Element))
+        for child in kids:
+            if local(child) not in kind.children or child.tag != NS + local(child):
+                self._unexpected(child, element)
+            elif child in self.hopeless:
+                self._hopeless(child, element)
+        kids = list(element.iterchildren(tag=etree.Element))
+        names = [local(child) for child in kids]
+        if kind.matches(names) or not self._known(names, kind):
+            return
+        self._arrange(element, kind, kids)
+
+    @staticmethod
+    def _known(names: list[str], kind: ComplexType) -> bool:
+        return all(name in kind.children for name in names)
+
+    def _hopeless(self, child: etree._Element, parent: etree._Element) -> None:
+        why = self.hopeless[child]
+        rule = rules.UNREADABLE_VALUE if why.startswith("its value") else rules.INCOMPLETE_ELEMENT
+        if not self.context.wants(rule):
+            return
+        self.context.note(rule, child, f"<{local(child)}>: {why}; moved into an extra")
+        self.context.stash(child)
+
+    def _arrange(
+        self, element: etree._Element, kind: ComplexType, kids: list[etree._Element]
+    ) -> None:
+        pool: _Pool = {}
+        for child in kids:
+            pool.setdefault(local(child), []).append(child)
+        assert kind.content is not None or not pool
+        plan = _Plan(self.context, element)
+        if kind.content is not None:
+            plan.take(kind.content, pool)
+        if plan.missing is not None:
+            self.hopeless[element] = f"it has no <{plan.missing}>"
+            return
+        for left in [child for rest in pool.values() for child in rest]:
+            self._unexpected(left, element)
+        if any(child.getparent() is not element for child in kids if child in plan.order):
+            return
+        for made in plan.made:
+            if self.context.wants(rules.MISSING_ELEMENT):
+                why = plan.made[made]
+                message = f"<{local(element)}> had no <{local(made)}>; added{why}"
+                self.context.note(rules.MISSING_ELEMENT, element, message)
+            else:
+                plan.order.remove(made)
+        self._reorder(element, plan.order)
+
+    def _reorder(self, element: etree._Element, order: list[etree._Element]) -> None:
+        stashed = [child for child in element.iterchildren(NS + "extra") if child not in set(order)]
+        order = [*order, *stashed]
+        before = [child for child in element.iterchildren(tag=etree.Element)]
+        kept = [child for child in order if child.getparent() is element]
+        if before != kept:
+            if not self.context.wants(rules.CHILD_ORDER):
+                order = before
+            else:
+                message = (
+                    f"children of <{local(element)}> were {_names(before)}, are now {_names(kept)}"
+                )
+                self.context.note(rules.CHILD_ORDER, element, message)
+        if before == order:
+            return
+        _set_children(element, order)
+
+
+class _Plan:
+    """Fills a content model from the children there are."""
+
+    def __init__(self, context: Context, element: etree._Element) -> None:
+        self.context = context
+        self.element = element
+        self.order: list[etree._Element] = []
+        self.made: dict[etree._Element, str] = {}
+        self.missing: str | None = None
+
+    def take(self, part: Declaration | Group, pool: _Pool) -> None:
+        """Move from `pool` to `order` what `part` may hold."""
+        if isinstance(part, Declaration):
+            self._element(part, pool)
+        elif part.high > 1:
+            self._repeated(part, pool)
+        elif part.low or _present(part, pool):
+            if part.kind == "sequence":
+                for inner in part.parts:
+                    self.take(inner, pool)
+            else:
+                self.take(self._branch(part, pool), pool)
+
+    def _element(self, part: Declaration, pool: _Pool) -> None:
+        found = pool.get(part.name, [])
+        taken, pool[part.name] = found[: part.high], found[part.high :]
+        self.order.extend(taken)
+        for _ in range(part.low - len(taken)):
+            new = assumed_element(self.context, self.element, part)
+            if new is None:
+                self.missing = self.missing or part.name
+                return
+            self.order.append(new[0])
+            self.made[new[0]] = f": {new[1]}" if new[1] else ""
+
+    def _repeated(self, part: Group, pool: _Pool) -> None:
+        names = {declaration.name for declaration in part.declarations()}
+        if part.kind == "choice" and all(isinstance(inner, Declaration) for inner in part.parts):
+            for child in self.element.iterchildren(tag=etree.Element):
+                rest = pool.get(local(child))
+                if local(child) in names and rest and rest[0] is child:
+                    self.order.append(rest.pop(0))
+            if part.low and not self.order:
+                self.missing = self.missing or " or ".join(sorted(names))
+            return
+        once = Group(part.kind, part.parts, 1, 1)
+        count = 0
+        while _present(part, pool) and self.missing is None:
+            before = len(self.order)
+            self.take(once, pool)
+            count += 1
+            if len(self.order) == before:
+                break
+        while count < part.low and self.missing is None:
+            self.take(once, pool)
+            count += 1
+
+    def _branch(self, part: Group, pool: _Pool) -> Declaration | Group:
+        """The branch of a choice that needs least and holds most of what is there."""
+
+        def cost(branch: Declaration | Group) -> tuple[int, int]:
+            needed = _required(branch)
+            lacking = sum(1 for name in needed if not pool.get(name))
+            inner = [branch] if isinstance(branch, Declaration) else branch.declarations()
+            return lacking, -len({item.name for item in inner if pool.get(item.name)})
+
+        present = [branch for branch in part.parts if _present(branch, pool)]
+        return min(present or part.parts, key=cost)
+
+
+def _present(part: Declaration | Group, pool: _Pool) -> bool:
+    names = [part] if isinstance(part, Declaration) else part.declarations()
+    return any(pool.get(declaration.name) for declaration in names)
+
+
+def _required(part: Declaration | Group) -> set[str]:
+    if not part.low:
+        return set()
+    if isinstance(part, Declaration):
+        return {part.name}
+    if part.kind == "choice":
+        return _required(part.parts[0]) if len(part.parts) == 1 else set()
+    return {name for inner in part.parts for name in _required(inner)}
+
+
+def _set_children(parent: etree._Element, order: list[etree._Element]) -> None:
+    """Put elements into this order; comments stay before the element they stand before."""
+    tails = [child.tail for child in parent]
+    units: dict[etree._Element, list[etree._Element]] = {}
+    waiting: list[etree._Element] = []
+    for child in parent:
+        waiting.append(child)
+        if local(child):
+            units[child] = waiting
+            waiting = []
+    nodes = [node for element in order for node in units.get(element, [element])] + waiting
+    blank = parent.text if parent.text and not parent.text.strip() else None
+    for node in list(parent):
+        parent.remove(node)
+    last = tails[-1] if tails else None
+    for node in nodes:
+        node.tail = blank
+        parent.append(node)
+    if nodes:
+        nodes[-1].tail = last
+
+
+def _names(elements: list[etree._Element]) -> str:
+    names = [local(element) for element in elements]
+    return ", ".join(names if len(names) <= 12 else [*names[:11], f"… ({len(names)} in all)"])
+
+
+def _short(text: str) -> str:
+    text = " ".join(text.split())
+    return repr(text if len(text) <= 60 else text[:57] + "…")
+
+
+def _xml_text(text: str) -> str:
+    return " ".join(text.split())
