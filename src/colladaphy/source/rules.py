@@ -1,0 +1,193 @@
+"""What can be wrong with an input before its content is looked at, and with an output."""
+
+from __future__ import annotations
+
+from colladaphy.findings import Rule, Severity
+
+__all__ = ["RULES"]
+
+_ERROR = Severity.ERROR
+
+MISSING = Rule(
+    "io-missing",
+    _ERROR,
+    "The file does not exist.",
+    "Check the spelling and the folder.",
+)
+FOLDER = Rule(
+    "io-folder",
+    _ERROR,
+    "This is a folder, not a file.",
+    "Name a .dae or .zae file in it.",
+)
+UNREADABLE = Rule(
+    "io-unreadable",
+    _ERROR,
+    "The input cannot be read.",
+    "Check that the file exists, that you may read it, and that its disk is there.",
+)
+NOT_BINARY = Rule(
+    "io-not-binary",
+    _ERROR,
+    "The input gives text where bytes are needed.",
+    "Open the file in binary mode ('rb'), or encode the text.",
+)
+TOO_LARGE = Rule(
+    "io-too-large",
+    _ERROR,
+    "The input is larger than the limit.",
+    "If the file is trusted, raise the limit: colladaphy.read(..., limits=Limits(bytes=...)).",
+)
+ARCHIVE_BROKEN = Rule(
+    "io-archive-broken",
+    _ERROR,
+    "The archive is damaged, encrypted, or packed in a way that is not supported.",
+    "Pack the document again as a plain zip archive.",
+)
+ARCHIVE_UNSAFE = Rule(
+    "io-archive-unsafe",
+    _ERROR,
+    "The archive has an entry that a .zae must not have.",
+    "Pack only plain files, each once, under relative names without '..'.",
+    "COLLADA 1.5 §Archive packaging (.zae)",
+)
+ARCHIVE_BOMB = Rule(
+    "io-archive-bomb",
+    _ERROR,
+    "The archive unpacks to more than the limits allow.",
+    "If the file is trusted, raise archive_ratio, archive_entries or total in Limits.",
+)
+ARCHIVE_ROOT = Rule(
+    "io-archive-root",
+    _ERROR,
+    "The archive does not say which of its files is the document.",
+    "Add a manifest.xml with <dae_root>name.dae</dae_root>, or pack exactly one .dae file.",
+    "COLLADA 1.5 §Archive packaging (.zae)",
+)
+REFERENCE_REFUSED = Rule(
+    "io-reference-refused",
+    _ERROR,
+    "A reference to another file leads out of the document's folder or archive.",
+    "Put the file next to the document and refer to it by a relative name.",
+)
+REFERENCE_MISSING = Rule(
+    "io-reference-missing",
+    _ERROR,
+    "A file that the document refers to does not exist.",
+    "Put the file where the reference says, or correct the reference.",
+)
+OUTPUT_FAILED = Rule(
+    "io-output-failed",
+    _ERROR,
+    "The output cannot be written.",
+    "Choose another folder, or check its permissions and its disk.",
+)
+
+EMPTY = Rule(
+    "xml-empty",
+    _ERROR,
+    "The file is empty.",
+    "Export the document again.",
+)
+NOT_XML = Rule(
+    "xml-not-xml",
+    _ERROR,
+    "The file is not XML.",
+    "A COLLADA document begins with '<?xml' or '<COLLADA'; export it as .dae or .zae.",
+)
+HTML = Rule(
+    "xml-html",
+    _ERROR,
+    "The file is an HTML page, not a COLLADA document.",
+    "Download the file itself (the 'raw' link), not the page that shows it.",
+)
+DOCTYPE = Rule(
+    "xml-doctype",
+    _ERROR,
+    "The document has a DOCTYPE, which is refused: it can name other files and entities.",
+    "Remove the <!DOCTYPE ...> declaration; COLLADA needs none.",
+)
+MALFORMED = Rule(
+    "xml-malformed",
+    _ERROR,
+    "The document is not well-formed XML.",
+    "Correct the markup at this place, or export the document again.",
+)
+ENCODING = Rule(
+    "xml-encoding",
+    _ERROR,
+    "The document is not in the encoding that it declares.",
+    "Save the document as UTF-8.",
+)
+TRUNCATED = Rule(
+    "xml-truncated",
+    _ERROR,
+    "The document ends before its last element is closed.",
+    "The file was cut off: copy, download or export it again.",
+)
+TRAILING = Rule(
+    "xml-trailing",
+    _ERROR,
+    "There is content after the end of the document.",
+    "Remove what follows </COLLADA>.",
+)
+TOO_DEEP = Rule(
+    "xml-too-deep",
+    _ERROR,
+    "Elements are nested deeper than the limit.",
+    "If the file is trusted, raise the limit: colladaphy.read(..., limits=Limits(depth=...)).",
+)
+TEXT_TOO_LONG = Rule(
+    "xml-text-too-long",
+    _ERROR,
+    "A text, a name or an attribute is longer than the limit.",
+    "If the file is trusted, raise the limit: colladaphy.read(..., limits=Limits(text=...)).",
+)
+TOO_MANY_ELEMENTS = Rule(
+    "xml-too-many-elements",
+    _ERROR,
+    "The document has more elements than the limit.",
+    "If the file is trusted, raise the limit: colladaphy.read(..., limits=Limits(elements=...)).",
+)
+WRONG_ROOT = Rule(
+    "xml-wrong-root",
+    _ERROR,
+    "The root element is not COLLADA.",
+    "Choose a COLLADA document; other formats must be converted first.",
+    "COLLADA 1.5 §COLLADA",
+)
+WRONG_NAMESPACE = Rule(
+    "xml-wrong-namespace",
+    _ERROR,
+    "The root element is not in a namespace of COLLADA.",
+    'COLLADA 1.5 has xmlns="http://www.collada.org/2008/03/COLLADASchema".',
+    "COLLADA 1.5 §COLLADA",
+)
+
+RULES = (
+    MISSING,
+    FOLDER,
+    UNREADABLE,
+    NOT_BINARY,
+    TOO_LARGE,
+    ARCHIVE_BROKEN,
+    ARCHIVE_UNSAFE,
+    ARCHIVE_BOMB,
+    ARCHIVE_ROOT,
+    REFERENCE_REFUSED,
+    REFERENCE_MISSING,
+    OUTPUT_FAILED,
+    EMPTY,
+    NOT_XML,
+    HTML,
+    DOCTYPE,
+    MALFORMED,
+    ENCODING,
+    TRUNCATED,
+    TRAILING,
+    TOO_DEEP,
+    TEXT_TOO_LONG,
+    TOO_MANY_ELEMENTS,
+    WRONG_ROOT,
+    WRONG_NAMESPACE,
+)
