@@ -1,0 +1,1 @@
+"""What runs a World in time: the protocol of engines, the engines, runs and checkpoints."""

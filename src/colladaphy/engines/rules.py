@@ -1,0 +1,185 @@
+"""Findings of the engines: what they refuse, drop or approximate, and what a resumed run lacks."""
+
+from __future__ import annotations
+
+from colladaphy.errors import EngineError
+from colladaphy.findings import Rule, Severity
+
+__all__ = ["RULES", "refuse"]
+
+TIME_STEP = Rule(
+    "engine-time-step",
+    Severity.ERROR,
+    "The time step is not a positive number.",
+    "Give dt=..., or --dt on the command line.",
+    "COLLADA 1.5 §time_step",
+)
+TIME_STEP_DEFAULT = Rule(
+    "engine-time-step-default",
+    Severity.INFO,
+    "The scene names no time step; 1/240 is assumed.",
+    "Give dt=..., or --dt on the command line.",
+    "COLLADA 1.5 §time_step",
+)
+UNKNOWN = Rule(
+    "engine-unknown",
+    Severity.ERROR,
+    "There is no engine of this name.",
+    "Choose auto, pymunk or mujoco.",
+)
+NOT_INSTALLED = Rule(
+    "engine-not-installed",
+    Severity.ERROR,
+    "The library under this engine is not installed.",
+    "Install it: pip install 'colladaphy[mujoco]'.",
+)
+DIVERGED = Rule(
+    "engine-diverged",
+    Severity.ERROR,
+    "The simulation has diverged: a pose or velocity is not a finite number any more.",
+    "Take a smaller time step, or softer springs; the last checkpoint is good.",
+)
+SEED_UNUSED = Rule(
+    "engine-seed-unused",
+    Severity.INFO,
+    "The engine draws no random numbers: the run is the same for every seed.",
+    "Leave the seed out.",
+)
+RESTITUTION = Rule(
+    "engine-restitution",
+    Severity.WARNING,
+    "The engine knows no coefficient of restitution; contacts of these materials don't bounce.",
+    "Run planar scenes with pymunk, which follows the coefficient.",
+    "thesis 4.4",
+)
+FRICTIONS = Rule(
+    "engine-frictions",
+    Severity.WARNING,
+    "The engine has one coefficient of sliding friction; static and dynamic friction differ here.",
+    "The dynamic coefficient is taken; set both to the same value to be sure.",
+    "thesis 4.4",
+)
+MASS = Rule(
+    "engine-mass",
+    Severity.ERROR,
+    "A body that can move needs a positive mass and a positive definite inertia.",
+    "Give the body a mass and an inertia, or fix it.",
+)
+INERTIA_TRIANGLE = Rule(
+    "engine-inertia-triangle",
+    Severity.WARNING,
+    "No rigid body can have this inertia: one principal moment is larger than the other two "
+    "together.",
+    "The engine runs it as given; check the inertia tensor.",
+)
+MOVING_PLANE = Rule(
+    "engine-moving-plane",
+    Severity.ERROR,
+    "A body with a plane in it cannot move.",
+    "Fix the body: a plane has infinite mass.",
+)
+SIZE = Rule(
+    "engine-size",
+    Severity.ERROR,
+    "A dimension or mass is too small or too large for the engine.",
+    "Scale the scene to other units.",
+)
+JOINT_LIMITS = Rule(
+    "engine-joint-limits",
+    Severity.ERROR,
+    "The engine cannot keep these limits of a joint.",
+    "Each axis is locked, free, or has limits around zero; see the documentation of the engine.",
+    "COLLADA 1.5 §rigid_constraint",
+)
+JOINT_APPROXIMATED = Rule(
+    "engine-joint-approximated",
+    Severity.WARNING,
+    "The engine keeps a joint only approximately.",
+    None,
+    "COLLADA 1.5 §rigid_constraint",
+)
+JOINT_INERT = Rule(
+    "engine-joint-inert",
+    Severity.INFO,
+    "A joint between bodies that cannot move has no effect.",
+)
+STATE_ENGINE = Rule(
+    "engine-state-engine",
+    Severity.WARNING,
+    "The checkpoint was made by another engine: the run goes on from poses and velocities.",
+    "Resume with the same engine to go on exactly.",
+)
+STATE_VERSION = Rule(
+    "engine-state-version",
+    Severity.WARNING,
+    "The checkpoint was made by another version of the engine: the run goes on from poses and "
+    "velocities.",
+    "Install the same version to go on exactly.",
+)
+STATE_STALE = Rule(
+    "engine-state-stale",
+    Severity.WARNING,
+    "The World was changed after its engine's state was stored: the run goes on from the World.",
+    "This is as it should be if the World was edited.",
+)
+STATE_BROKEN = Rule(
+    "engine-state-broken",
+    Severity.WARNING,
+    "The stored state of the engine cannot be understood: the run goes on from the World.",
+    "Check where the file comes from.",
+)
+CHECKPOINT_BROKEN = Rule(
+    "engine-checkpoint-broken",
+    Severity.WARNING,
+    "A checkpoint is not whole.",
+    "It is passed over; remove it when it is not needed to find out what happened.",
+)
+CHECKPOINT_NONE = Rule(
+    "engine-checkpoint-none",
+    Severity.ERROR,
+    "There is no checkpoint that is whole.",
+    "Name the folder that --checkpoint-dir named, or start anew without --resume.",
+)
+CHECKPOINT_STATELESS = Rule(
+    "engine-checkpoint-stateless",
+    Severity.ERROR,
+    "The file is a scene, but no checkpoint: it holds no state of an engine.",
+    "Start from it without --resume.",
+)
+STEPS = Rule(
+    "engine-steps",
+    Severity.ERROR,
+    "A number of steps is not what it can be.",
+    "Steps are not negative; intervals between checkpoints or observations are positive.",
+)
+
+RULES = (
+    TIME_STEP,
+    TIME_STEP_DEFAULT,
+    UNKNOWN,
+    NOT_INSTALLED,
+    DIVERGED,
+    SEED_UNUSED,
+    RESTITUTION,
+    FRICTIONS,
+    MASS,
+    INERTIA_TRIANGLE,
+    MOVING_PLANE,
+    SIZE,
+    JOINT_LIMITS,
+    JOINT_APPROXIMATED,
+    JOINT_INERT,
+    STATE_ENGINE,
+    STATE_VERSION,
+    STATE_STALE,
+    STATE_BROKEN,
+    CHECKPOINT_BROKEN,
+    CHECKPOINT_NONE,
+    CHECKPOINT_STATELESS,
+    STEPS,
+)
+
+
+def refuse(rule: Rule, message: str) -> EngineError:
+    """The error of a rule, to be raised."""
+    return EngineError(rule.at(message=message))
