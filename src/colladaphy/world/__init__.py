@@ -1,0 +1,31 @@
+"""The World: rigid bodies after the pe engine, in numpy columns."""
+
+from colladaphy.world import rotations
+from colladaphy.world.body import Body
+from colladaphy.world.columns import BodyColumns, MemberColumns
+from colladaphy.world.compare import compare
+from colladaphy.world.core import EngineState
+from colladaphy.world.joints import FREE, LOCKED, Joint
+from colladaphy.world.kinds import JointKind, Kind
+from colladaphy.world.materials import Material, MaterialPair, PairOverride
+from colladaphy.world.meshes import Mesh
+from colladaphy.world.world import World
+
+__all__ = [
+    "FREE",
+    "LOCKED",
+    "Body",
+    "BodyColumns",
+    "EngineState",
+    "Joint",
+    "JointKind",
+    "Kind",
+    "Material",
+    "MaterialPair",
+    "MemberColumns",
+    "Mesh",
+    "PairOverride",
+    "World",
+    "compare",
+    "rotations",
+]

@@ -1,0 +1,327 @@
+"""Light handles to the bodies of a World."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from colladaphy.world import rotations, values
+from colladaphy.world.kinds import Kind
+from colladaphy.world.materials import Material
+from colladaphy.world.meshes import Mesh
+from colladaphy.world.rules import KIND, UNION_MEMBERS, KindError, refuse
+from colladaphy.world.shapes import solid_volume
+
+if TYPE_CHECKING:
+    from colladaphy.world.world import World
+
+__all__ = ["Body"]
+
+Floats = NDArray[np.float64]
+
+# A stored normal or displacement stands for the pose as long as it agrees with it to rounding.
+_ROUNDING = 16 * float(np.finfo(np.float64).eps)
+
+
+class Body:
+    """One body of a World: a view of its row, alive until the body is destroyed.
+
+    Arrays that are returned are copies; assign to change the World. Vectors are in the World's
+    unit, quaternions are (w, x, y, z), angular velocities in rad/s in the world frame, inertias
+    (3, 3) about the centre of mass in the body frame. A member of a union moves with it: its
+    velocities, its being fixed and its sleep are the union's.
+    """
+
+    __slots__ = ("sid", "world")
+
+    def __init__(self, world: World, sid: int) -> None:
+        self.world = world
+        self.sid = sid
+        """System id, unique within the World."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Body) and other.sid == self.sid and other.world is self.world
+
+    def __hash__(self) -> int:
+        return hash((id(self.world), self.sid))
+
+    def __repr__(self) -> str:
+        if self.sid not in self.world:
+            return f"<body {self.sid}, destroyed>"
+        name = f" {self.name!r}" if self.name else ""
+        return f"<{self.kind.name.lower()} {self.sid}{name}>"
+
+    def _get(self, column: str) -> Any:
+        table, row = self.world.locate(self.sid)
+        return table.raw(column)[row]
+
+    def _set(self, column: str, value: Any) -> None:
+        table, row = self.world.locate(self.sid)
+        table.raw(column)[row] = value
+
+    # --- what it is
+
+    @property
+    def kind(self) -> Kind:
+        """Sphere, box, … union."""
+        return Kind(int(self._get("kinds")))
+
+    @property
+    def uid(self) -> int:
+        """User id: the user's own number, not necessarily unique."""
+        return int(self._get("uids"))
+
+    @uid.setter
+    def uid(self, value: int) -> None:
+        self._set("uids", values.user_id(value))
+
+    @property
+    def name(self) -> str | None:
+        """The name, if it has one."""
+        self.world.locate(self.sid)
+        return self.world.names.get(self.sid)
+
+    @name.setter
+    def name(self, value: str | None) -> None:
+        self.world.locate(self.sid)
+        if value is None:
+            self.world.names.pop(self.sid, None)
+        else:
+            self.world.names[self.sid] = str(value)
+
+    @property
+    def parent(self) -> Body | None:
+        """The union that it is a member of."""
+        sid = self.world.parent_of(self.sid)
+        return None if sid is None else Body(self.world, sid)
+
+    @property
+    def members(self) -> tuple[Body, ...]:
+        """The members of a union in the order in which it was made of them, else none."""
+        self.world.locate(self.sid)
+        return tuple(Body(self.world, sid) for sid in self.world.children.get(self.sid, ()))
+
+    @property
+    def root(self) -> Body:
+        """The outermost union that it belongs to, or itself."""
+        body = self
+        while (parent := body.parent) is not None:
+            body = parent
+        return body
+
+    @property
+    def material(self) -> Material | None:
+        """Its material; a union has one if all of its members have the same."""
+        if self.kind is Kind.UNION:
+            materials = {member.material for member in self.members}
+            return materials.pop() if len(materials) == 1 else None
+        return self.world.materials[int(self._get("material_ids"))]
+
+    # --- where it is
+
+    @property
+    def position(self) -> Floats:
+        """Centre of mass in the world frame (3,)."""
+        return self.world.pose_of(self.sid)[0]
+
+    @position.setter
+    def position(self, value: ArrayLike) -> None:
+        self.world.place(self.sid, values.vector("position", value), None)
+
+    @property
+    def orientation(self) -> Floats:
+        """Rotation from the body frame to the world frame (4,)."""
+        return self.world.pose_of(self.sid)[1]
+
+    @orientation.setter
+    def orientation(self, value: ArrayLike) -> None:
+        self.world.place(self.sid, None, values.quaternion(value))
+
+    @property
+    def local_position(self) -> Floats:
+        """Position relative to the union that it is a member of; else as `position`. Stored."""
+        return np.array(self._get("positions"))
+
+    @property
+    def local_orientation(self) -> Floats:
+        """Orientation relative to the union that it is a member of. Stored."""
+        return np.array(self._get("orientations"))
+
+    def rotate(self, x: float, y: float, z: float) -> None:
+        """Turn about the fixed axes x, then y, then z through its centre, in radians."""
+        turn = rotations.fixed_angles(x, y, z)
+        turned = rotations.normalize(rotations.multiply(turn, self.orientation))
+        self.world.place(self.sid, None, turned)
+
+    # --- how it moves
+
+    @property
+    def linear_velocity(self) -> Floats:
+        """Velocity of the centre of mass (3,)."""
+        return self.world.velocity_of(self.sid)[0]
+
+    @linear_velocity.setter
+    def linear_velocity(self, value: ArrayLike) -> None:
+        self._set_motion("linear_velocities", values.vector("linear velocity", value))
+
+    @property
+    def angular_velocity(self) -> Floats:
+        """Angular velocity in the world frame (3,), rad/s."""
+        return self.world.velocity_of(self.sid)[1]
+
+    @angular_velocity.setter
+    def angular_velocity(self, value: ArrayLike) -> None:
+        self._set_motion("angular_velocities", values.vector("angular velocity", value))
+
+    @property
+    def force(self) -> Floats:
+        """Force (3,) that acts on the centre of mass of its root during the next step."""
+        return np.array(self.root._get("forces"))
+
+    @force.setter
+    def force(self, value: ArrayLike) -> None:
+        self._set_motion("forces", values.vector("force", value))
+
+    @property
+    def torque(self) -> Floats:
+        """Torque (3,) that acts on its root during the next step."""
+        return np.array(self.root._get("torques"))
+
+    @torque.setter
+    def torque(self, value: ArrayLike) -> None:
+        self._set_motion("torques", values.vector("torque", value))
+
+    def _set_motion(self, column: str, value: Floats) -> None:
+        if self.parent is not None:
+            raise refuse(UNION_MEMBERS, f"{self!r} moves with its union; set it on that.")
+        self._set(column, value)
+
+    @property
+    def sleeping(self) -> bool:
+        """True if an engine has put it to sleep."""
+        return bool(self.root._get("sleeping"))
+
+    @sleeping.setter
+    def sleeping(self, value: bool) -> None:
+        self.root._set("sleeping", bool(value))
+
+    # --- its mass
+
+    @property
+    def mass(self) -> float:
+        """Mass, of infinite bodies 0."""
+        return float(self._get("masses"))
+
+    @property
+    def inertia(self) -> Floats:
+        """Inertia (3, 3) about the centre of mass in the body frame."""
+        return np.array(self._get("inertias"))
+
+    @property
+    def infinite(self) -> bool:
+        """True for planes and for unions that hold one."""
+        return self.world.is_infinite(self.sid)
+
+    @property
+    def fixed(self) -> bool:
+        """True if nothing moves it: its inverse mass and inertia are zero."""
+        return bool(self.root._get("fixed"))
+
+    @fixed.setter
+    def fixed(self, value: bool) -> None:
+        root = self.root
+        if not root.infinite:
+            root._set("fixed", bool(value))
+
+    @property
+    def inverse_mass(self) -> float:
+        """1/mass, 0 for bodies that are fixed or have no mass."""
+        mass = self.mass
+        return 0.0 if self.fixed or mass == 0.0 else 1.0 / mass
+
+    @property
+    def inverse_inertia(self) -> Floats:
+        """The inverse of the inertia, zero for bodies that are fixed or have none."""
+        inertia = self.inertia
+        if self.fixed or not np.any(inertia):
+            return np.zeros((3, 3))
+        return np.asarray(np.linalg.inv(inertia))
+
+    @property
+    def volume(self) -> float:
+        """Enclosed volume; of a union the sum over its members; 0 for a plane."""
+        kind = self.kind
+        if kind is Kind.UNION:
+            return sum(member.volume for member in self.members)
+        if kind is Kind.MESH:
+            return self.mesh.volume
+        return float(solid_volume(kind, self._get("dimensions")[None])[0])
+
+    @property
+    def density(self) -> float:
+        """Mass over volume, 0 for a plane."""
+        volume = self.volume
+        return self.mass / volume if volume else 0.0
+
+    # --- its shape
+
+    def _dimension(self, what: str, kinds: tuple[Kind, ...]) -> Floats:
+        kind = self.kind
+        if kind not in kinds:
+            raise KindError(KIND.at(message=f"A {kind.name.lower()} has no {what}."))
+        return np.array(self._get("dimensions"))
+
+    @property
+    def dimensions(self) -> Floats:
+        """The stored dimensions (4,), as `colladaphy.world.shapes` lays them out."""
+        return np.array(self._get("dimensions"))
+
+    @property
+    def hollow(self) -> bool:
+        """True if its mass is spread over its surface."""
+        return bool(self._get("hollow"))
+
+    @property
+    def radius(self) -> float:
+        """Radius of a sphere; of a capsule or cylinder across y (see `radii`)."""
+        row = self._dimension("radius", (Kind.SPHERE, Kind.CAPSULE, Kind.CYLINDER))
+        return float(row[0] if self.kind is Kind.SPHERE else row[1])
+
+    @property
+    def radii(self) -> Floats:
+        """Semi-axes x, y, z of an ellipsoid or capsule (x: of the caps), y, z of a cylinder."""
+        row = self._dimension("radii", (Kind.ELLIPSOID, Kind.CAPSULE, Kind.CYLINDER))
+        return row[1:3] if self.kind is Kind.CYLINDER else row[:3]
+
+    @property
+    def length(self) -> float:
+        """Length of a cylinder, or of a capsule without its caps; along x."""
+        return float(self._dimension("length", (Kind.CAPSULE, Kind.CYLINDER))[3])
+
+    @property
+    def lengths(self) -> Floats:
+        """Full side lengths of a box (3,)."""
+        return self._dimension("lengths", (Kind.BOX,))[:3]
+
+    @property
+    def normal(self) -> Floats:
+        """Outward unit normal of a plane in the world frame (3,)."""
+        stored = self._dimension("normal", (Kind.PLANE,))[:3]
+        return self.world.normal_of(self.sid, stored)
+
+    @property
+    def displacement(self) -> float:
+        """Distance of a plane from the origin along its normal: solid where n·x < d."""
+        stored = float(self._dimension("displacement", (Kind.PLANE,))[3])
+        products = (self.normal * self.position).tolist()
+        derived = sum(products)
+        slack = _ROUNDING * sum(map(abs, products))
+        return stored if abs(stored - derived) <= slack else derived
+
+    @property
+    def mesh(self) -> Mesh:
+        """The mesh of a mesh body, shared between bodies."""
+        self._dimension("mesh", (Kind.MESH,))
+        return self.world.meshes[int(self._get("mesh_ids"))]

@@ -1,0 +1,265 @@
+"""Creators of primitives, one at a time and many at once."""
+
+from __future__ import annotations
+
+from typing import Any, TypedDict, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from colladaphy.world import rotations, values
+from colladaphy.world.body import Body
+from colladaphy.world.columns import BodyColumns
+from colladaphy.world.creation import prepare
+from colladaphy.world.kinds import Kind
+from colladaphy.world.materials import Material
+from colladaphy.world.meshes import Mesh
+from colladaphy.world.rules import COLUMNS, MESH, SYSTEM_ID, refuse
+from colladaphy.world.viewing import Viewing
+
+__all__ = ["BodyOptions", "Creating"]
+
+
+class BodyOptions(TypedDict, total=False):
+    """What every creator takes besides pe's arguments; given values are stored as they are."""
+
+    orientation: ArrayLike
+    """Quaternion (w, x, y, z); a length far from one is normalised."""
+    linear_velocity: ArrayLike
+    angular_velocity: ArrayLike
+    mass: float
+    inertia: ArrayLike
+    """(3, 3) about the centre of mass in the body frame, or its diagonal (3,)."""
+    fixed: bool
+    hollow: bool
+    """The mass is spread over the surface."""
+    sid: int
+    name: str
+
+
+class Creating(Viewing):
+    """Adds bodies. All creators raise WorldError where a dimension or a value is impossible."""
+
+    def create_sphere(
+        self,
+        uid: int,
+        position: ArrayLike,
+        radius: float,
+        material: Material | str,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A sphere."""
+        row = (values.positive("radius", radius), 0.0, 0.0, 0.0)
+        return self._create(Kind.SPHERE, uid, position, row, material, options)
+
+    def create_box(
+        self,
+        uid: int,
+        position: ArrayLike,
+        lengths: ArrayLike,
+        material: Material | str,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A box of full side lengths (3,)."""
+        row = (*_positives("side length", lengths, 3), 0.0)
+        return self._create(Kind.BOX, uid, position, row, material, options)
+
+    def create_capsule(
+        self,
+        uid: int,
+        position: ArrayLike,
+        radius: float | ArrayLike,
+        length: float,
+        material: Material | str,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A capsule along x; `length` excludes the caps.
+
+        `radius` is a number, or the semi-axes x (of the caps), y and z.
+        """
+        radii = _positives("radius", np.broadcast_to(np.asarray(radius, dtype=float), (3,)), 3)
+        row = (*radii, values.positive("length", length))
+        return self._create(Kind.CAPSULE, uid, position, row, material, options)
+
+    def create_cylinder(
+        self,
+        uid: int,
+        position: ArrayLike,
+        radius: float | ArrayLike,
+        length: float,
+        material: Material | str,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A cylinder along x. `radius` is a number, or the semi-axes y and z."""
+        radii = _positives("radius", np.broadcast_to(np.asarray(radius, dtype=float), (2,)), 2)
+        row = (0.0, *radii, values.positive("length", length))
+        return self._create(Kind.CYLINDER, uid, position, row, material, options)
+
+    def create_ellipsoid(
+        self,
+        uid: int,
+        position: ArrayLike,
+        radii: ArrayLike,
+        material: Material | str,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """An ellipsoid of semi-axes (3,)."""
+        row = (*_positives("radius", radii, 3), 0.0)
+        return self._create(Kind.ELLIPSOID, uid, position, row, material, options)
+
+    def create_plane(
+        self,
+        uid: int,
+        normal: ArrayLike,
+        displacement: float | None,
+        material: Material | str,
+        *,
+        position: ArrayLike | None = None,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A half space, solid where normal·x < displacement; fixed and infinite.
+
+        The normal points out of the solid. Instead of the displacement (None), a point of the
+        surface may be given as `position`, which is then kept.
+        """
+        direction = values.normal(normal)
+        if displacement is None:
+            anchor = values.vector("position", (0.0, 0.0, 0.0) if position is None else position)
+            distance = float(sum((direction * anchor).tolist()))
+        else:
+            distance = float(values.vector("displacement", (displacement, 0.0, 0.0))[0])
+            anchor = direction * distance if position is None else values.vector("", position)
+        row = (*direction.tolist(), distance)
+        if "orientation" not in options:
+            options["orientation"] = rotations.between((0.0, 0.0, 1.0), direction)
+        return self._create(Kind.PLANE, uid, anchor, row, material, options)
+
+    def create_mesh(
+        self,
+        uid: int,
+        position: ArrayLike,
+        vertices: ArrayLike | Mesh,
+        faces: ArrayLike | None,
+        material: Material | str,
+        *,
+        convex: bool = False,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A solid enclosed by a closed surface of triangles, its centre of mass at `position`.
+
+        `vertices` (n, 3) and `faces` (m, 3), see `Mesh`; or a mesh of this World (faces None),
+        which the bodies then share.
+        """
+        if isinstance(vertices, Mesh):
+            mesh = vertices
+            if self.meshes.get(mesh.id) is not mesh:
+                raise refuse(MESH, f"{mesh!r} does not belong to this World; see add_mesh.")
+        elif faces is None:
+            raise refuse(MESH, "The mesh has vertices but no faces.")
+        else:
+            mesh = self.add_mesh(vertices, faces, convex=convex)
+        row = (0.0, 0.0, 0.0, 0.0)
+        return self._create(Kind.MESH, uid, position, row, material, options, mesh.id)
+
+    def add_mesh(
+        self, vertices: ArrayLike, faces: ArrayLike, *, convex: bool = False, id: int | None = None
+    ) -> Mesh:
+        """Add a mesh for any number of bodies to share."""
+        number = max(self.meshes, default=-1) + 1 if id is None else id
+        if number in self.meshes or number < 0:
+            raise refuse(MESH, f"The mesh id {number} is in use, or negative.")
+        mesh = Mesh(vertices, faces, convex=convex, id=number)
+        self.meshes[number] = mesh
+        return mesh
+
+    def extend(self, columns: BodyColumns) -> NDArray[np.int64]:
+        """Create many primitives at once; returns their system ids (n,).
+
+        Either all are created or, on WorldError, none. Quaternions and normals have to be of
+        length one.
+        """
+        filled = prepare(columns, self.materials, self.meshes)
+        count = len(filled["kinds"])
+        sids = self._system_ids_for(columns.sids, count)
+        if columns.names is not None:
+            if len(columns.names) != count:
+                raise refuse(COLUMNS, f"There are {len(columns.names)} names for {count} bodies.")
+            pairs = zip(sids.tolist(), columns.names, strict=True)
+            self.names.update((sid, name) for sid, name in pairs if name is not None)
+        self.top.extend(sids, filled)
+        if count:
+            self.next_body_sid = max(self.next_body_sid, int(sids.max()) + 1)
+        return sids
+
+    def _system_ids_for(self, given: Any, count: int) -> NDArray[np.int64]:
+        if given is None:
+            return np.arange(self.next_body_sid, self.next_body_sid + count, dtype=np.int64)
+        sids = np.asarray(given, dtype=np.int64)
+        if sids.shape != (count,):
+            raise refuse(COLUMNS, f"The column sids has the shape {sids.shape}, not {(count,)}.")
+        if count == 0:
+            return sids
+        if sids.min() < 1 or len(np.unique(sids)) < count:
+            raise refuse(SYSTEM_ID, "System ids are positive and differ from each other.")
+        if sids.min() < self.next_body_sid:
+            used = [sid for sid in sids[sids < self.next_body_sid].tolist() if sid in self]
+            if used:
+                raise refuse(SYSTEM_ID, f"The system id {used[0]} is in use.")
+        return sids
+
+    def claim_sid(self, sid: int | None) -> int:
+        """The system id for a new body: the one that is asked for if it is free, or the next."""
+        if sid is None:
+            sid = self.next_body_sid
+        elif not 0 < sid < 2**63 - 1 or (sid < self.next_body_sid and sid in self):
+            raise refuse(SYSTEM_ID, f"The system id {sid} is in use, or out of range.")
+        self.next_body_sid = max(self.next_body_sid, sid + 1)
+        return sid
+
+    def _create(
+        self,
+        kind: Kind,
+        uid: int,
+        position: ArrayLike,
+        dimensions: tuple[float, ...],
+        material: Material | str,
+        options: BodyOptions,
+        mesh_id: int = -1,
+    ) -> Body:
+        given: dict[str, Any] = {
+            "uids": values.user_id(uid),
+            "positions": values.vector("position", position),
+            "orientations": values.quaternion(options.get("orientation", rotations.IDENTITY)),
+            "material_ids": self.materials.resolve(material).id,
+            "dimensions": dimensions,
+            "mesh_ids": mesh_id,
+            "fixed": bool(options.get("fixed", False)),
+            "hollow": bool(options.get("hollow", False)),
+        }
+        if "linear_velocity" in options:
+            velocity = values.vector("linear velocity", options["linear_velocity"])
+            given["linear_velocities"] = velocity
+        if "angular_velocity" in options:
+            velocity = values.vector("angular velocity", options["angular_velocity"])
+            given["angular_velocities"] = velocity
+        if options.get("mass") is not None:
+            given["masses"] = values.mass(options["mass"])
+        if options.get("inertia") is not None:
+            given["inertias"] = values.inertia(options["inertia"])
+        columns = BodyColumns(kinds=np.array([kind], dtype=np.int8))
+        for key, value in given.items():
+            setattr(columns, key, np.asarray(value)[None])
+        filled = prepare(columns, self.materials, self.meshes)
+        sid = self.claim_sid(options.get("sid"))
+        self.top.append(sid, {key: value[0] for key, value in filled.items()})
+        name = options.get("name")
+        if name is not None:
+            self.names[sid] = str(name)
+        return self.handle(sid)
+
+
+def _positives(what: str, given: ArrayLike, count: int) -> list[float]:
+    array = np.asarray(given, dtype=np.float64)
+    if array.shape != (count,):
+        raise refuse(COLUMNS, f"A {what} is needed for each of {count} axes, not {given!r}.")
+    return [values.positive(what, number) for number in array.tolist()]

@@ -1,0 +1,34 @@
+"""The kinds of bodies and joints."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+__all__ = ["INFINITE_KINDS", "PRIMITIVE_KINDS", "JointKind", "Kind"]
+
+
+class Kind(IntEnum):
+    """What a body is made of (thesis 2.1); the numbers are stored in the `kinds` column."""
+
+    SPHERE = 0
+    BOX = 1
+    CAPSULE = 2
+    CYLINDER = 3
+    PLANE = 4
+    ELLIPSOID = 5
+    MESH = 6
+    UNION = 7
+
+
+PRIMITIVE_KINDS = frozenset(Kind) - {Kind.UNION}
+INFINITE_KINDS = frozenset({Kind.PLANE})
+
+
+class JointKind(IntEnum):
+    """What the limits of a joint amount to (thesis 2.2); derived, never stored."""
+
+    FIXED = 0
+    HINGE = 1
+    SLIDER = 2
+    BALL = 3
+    GENERAL = 4
