@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from colladaphy.findings import Severity as Severity
     from colladaphy.mapper import WriteOptions as WriteOptions
     from colladaphy.source import Limits as Limits
-    from colladaphy.validate import validate as validate
+    from colladaphy.validation import validate as validate
     from colladaphy.world import World as World
 
 __version__ = "0.1.0"
@@ -50,7 +50,7 @@ _HOME = {
     "WriteOptions": "mapper",
     "XmlError": "errors",
     "read": "document",
-    "validate": "validate",
+    "validate": "validation",
     "write": "document",
 }
 
