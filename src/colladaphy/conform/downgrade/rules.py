@@ -1,0 +1,127 @@
+"""The rules of the way back to COLLADA 1.4.1: what it cannot say, or says in other words."""
+
+from __future__ import annotations
+
+from colladaphy.findings import Rule, Severity
+
+_INFO, _WARNING = Severity.INFO, Severity.WARNING
+_IN_EXTRA = "it is kept in an extra with the technique profile colladaphy-1.5"
+
+ELEMENT_KEPT = Rule(
+    "downgrade-element",
+    _WARNING,
+    f"an element that COLLADA 1.4.1 does not have: {_IN_EXTRA}",
+    "a reader of 1.4.1 passes it over; write 1.5 where it matters",
+)
+ATTRIBUTE_KEPT = Rule(
+    "downgrade-attribute",
+    _INFO,
+    f"an attribute that COLLADA 1.4.1 does not have: {_IN_EXTRA}",
+)
+LIBRARY_KEPT = Rule(
+    "downgrade-library",
+    _WARNING,
+    f"a library that COLLADA 1.4.1 does not have: {_IN_EXTRA}",
+    "a reader of 1.4.1 sees no kinematics, joints, articulated systems or formulas",
+)
+BREP_KEPT = Rule(
+    "downgrade-brep",
+    _WARNING,
+    f"a boundary representation, replaced by an empty convex mesh: {_IN_EXTRA}",
+    "tessellate the geometry before you write 1.4.1",
+)
+PROFILE_KEPT = Rule(
+    "downgrade-effect-profile",
+    _WARNING,
+    f"a shader profile in the form of 1.5: {_IN_EXTRA}",
+    "profile_COMMON is the one that is carried over",
+)
+EMPTY_PROFILE = Rule(
+    "downgrade-empty-profile",
+    _WARNING,
+    "an effect without profile_COMMON got an empty one, as 1.4.1 asks for a profile",
+)
+EVALUATION_KEPT = Rule(
+    "downgrade-evaluate-scene",
+    _WARNING,
+    f"a scene evaluation that COLLADA 1.4.1 cannot say: {_IN_EXTRA}",
+)
+ARRAY_CHANGED = Rule(
+    "downgrade-array",
+    _INFO,
+    "an array of tokens or sid references was written as the Name_array of 1.4.1",
+)
+ARRAY_KEPT = Rule(
+    "downgrade-array-kept",
+    _WARNING,
+    "an array whose items are no names is kept in a technique of its source",
+    "a reader of 1.4.1 finds a source without data there",
+)
+NAME_CHANGED = Rule(
+    "downgrade-name",
+    _INFO,
+    "a name with characters that 1.4.1 does not allow was changed",
+)
+IMAGE_KEPT = Rule(
+    "downgrade-image",
+    _WARNING,
+    "an image that 1.4.1 can only say in part; the whole is kept in its extra",
+)
+SAMPLER_CHANGED = Rule(
+    "downgrade-sampler",
+    _WARNING,
+    "a sampler setting that COLLADA 1.4.1 does not have",
+    "the nearest setting was written, the original is kept in the sampler's extra",
+)
+OPAQUE_CHANGED = Rule(
+    "downgrade-opaque",
+    _INFO,
+    "the opaque mode of a transparent colour was written as one that 1.4.1 has",
+)
+OPAQUE_KEPT = Rule(
+    "downgrade-opaque-kept",
+    _WARNING,
+    "a transparency whose opaque mode 1.4.1 does not have is kept in an extra",
+    "a reader of 1.4.1 shows the material opaque",
+)
+CAPSULE_RADIUS = Rule(
+    "downgrade-capsule-radius",
+    _WARNING,
+    "1.4.1 has two radii for a capsule; the radius along its axis is left out",
+)
+BODY_ID = Rule(
+    "downgrade-rigid-body-id",
+    _INFO,
+    "1.4.1 has no id on rigid bodies; references to it became references to the sid",
+)
+SCHEMA_HINT = Rule(
+    "downgrade-schema-hint",
+    _INFO,
+    "an xsi attribute that speaks of the 1.5 schema was left out",
+)
+CONTENT_LEFT = Rule(
+    "downgrade-foreign-content",
+    _INFO,
+    "content of a technique stays in the namespace of 1.5: it uses element names of 1.4.1",
+)
+
+RULES = (
+    ELEMENT_KEPT,
+    ATTRIBUTE_KEPT,
+    LIBRARY_KEPT,
+    BREP_KEPT,
+    PROFILE_KEPT,
+    EMPTY_PROFILE,
+    EVALUATION_KEPT,
+    ARRAY_CHANGED,
+    ARRAY_KEPT,
+    NAME_CHANGED,
+    IMAGE_KEPT,
+    SAMPLER_CHANGED,
+    OPAQUE_CHANGED,
+    OPAQUE_KEPT,
+    CAPSULE_RADIUS,
+    BODY_ID,
+    SCHEMA_HINT,
+    CONTENT_LEFT,
+)
