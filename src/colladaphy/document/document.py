@@ -71,8 +71,9 @@ class Document:
     def root(self) -> Collada:
         """The document as generated dataclasses; what is edited there is written."""
         if self._root is None:
-            from colladaphy_schema import Collada
             from colladaphy_schema.codec import decode
+
+            from colladaphy_schema import Collada
 
             with paused_collector():
                 self._root = decode(self._tree.getroot(), Collada)

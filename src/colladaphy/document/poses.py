@@ -1,9 +1,9 @@
 """Poses: a position and an orientation, and how they compose.
 
 Plain tuples and scalar arithmetic, so that a pose that a document states alone keeps its bits: to
-compose with the identity changes nothing, not even the sign of a zero. Quaternions are
-(w, x, y, z). Affine transforms that are no poses (scale, skew, a matrix) are 4x4 nested tuples; `rigid_part`
-gives the pose nearest to one.
+compose with the identity changes nothing, not even the sign of a zero. Quaternions are in the
+order w, x, y, z. Affine transforms that are no poses (scale, skew, a matrix) are 4x4 nested
+tuples; `rigid_part` gives the pose nearest to one.
 """
 
 from __future__ import annotations

@@ -1,0 +1,283 @@
+"""Bodies as text, by column: rigid_body, its instance and its node, one line each.
+
+What every body of a World has is turned into text a column at a time; only unions are written
+one by one (`union_texts`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.mapper.markup import attribute, pe_technique, token
+from colladaphy.mapper.numbers import (
+    column_texts,
+    degrees_exactly,
+    float_text,
+    floats_text,
+    row_texts,
+    same_bits,
+)
+from colladaphy.mapper.shape_texts import (
+    geometry_texts,
+    halves_are_exact,
+    profile_geometry,
+    settling_steps,
+)
+from colladaphy.world import rotations
+from colladaphy.world.creation import mass_and_inertia
+from colladaphy.world.kinds import Kind
+from colladaphy.world.shapes import solid_volume
+
+if TYPE_CHECKING:
+    from colladaphy.mapper.options import WriteOptions
+    from colladaphy.world import World
+
+__all__ = ["ShapeTexts", "identity", "instance_texts", "node_texts", "rotation_texts"]
+
+Array = NDArray[Any]
+
+_NO_TURN = np.array([1.0, 0.0, 0.0, 0.0])
+
+
+def identity(uid: int | None, sid: int | None, name: str | None) -> str:
+    """The attributes of the pe profile that say who a body or joint is."""
+    return attribute("uid", uid) + attribute("sid", sid) + attribute("name", name)
+
+
+def kept_name(name: str | None) -> str | None:
+    """The name, if the common profile's name attribute would not keep it as it is."""
+    return name if name is not None and token(name) != name else None
+
+
+class ShapeTexts:
+    """What the shapes of bodies, or of members of unions, say; each list has one text a row."""
+
+    def __init__(
+        self,
+        world: World,
+        columns: dict[str, Array],
+        options: WriteOptions,
+        planes: dict[int, Sequence[float]],
+    ) -> None:
+        self._columns = columns
+        self._world = world
+        self._options = options
+        kinds, dimensions = columns["kinds"], columns["dimensions"]
+        self.kinds: list[int] = kinds.tolist()
+        self.geometry = geometry_texts(kinds, dimensions, columns["mesh_ids"], planes)
+        self.weight, weight_is_exact = self._weights()
+        self._derived = self._derived_inertias()
+        solid = kinds != Kind.UNION
+        box_is_exact = (kinds != Kind.BOX) | halves_are_exact(dimensions)
+        full = options.profile == "full" or options.tessellate
+        self.says_shape: list[bool] = (
+            solid & (~box_is_exact | (kinds == Kind.PLANE) | full)
+        ).tolist()
+        keep_all = options.profile == "full"
+        self.says_mass: list[bool] = (solid & (~weight_is_exact | keep_all)).tolist()
+        self.says_inertia: list[bool] = (solid & (~self._derived | keep_all)).tolist()
+
+    def _weights(self) -> tuple[list[str], Array]:
+        """The mass or density element of every shape, and whether the mass is exact in it."""
+        masses, kinds = self._columns["masses"], self._columns["kinds"]
+        exact = np.ones(len(masses), dtype=np.bool_)
+        texts = [f"<mass>{mass}</mass>" for mass in column_texts(masses)]
+        for row in np.flatnonzero((kinds == Kind.PLANE) & same_bits(masses, np.zeros(len(masses)))):
+            texts[row] = ""
+        if self._options.shape_weight == "density":
+            volumes = self._volumes()
+            with np.errstate(all="ignore"):
+                densities = masses / volumes
+                exact = same_bits(densities * volumes, masses)
+            usable = np.isfinite(densities) & (volumes > 0)
+            for row, density in zip(
+                np.flatnonzero(usable).tolist(), column_texts(densities[usable]), strict=True
+            ):
+                texts[row] = f"<density>{density}</density>"
+            exact |= ~usable
+        return texts, exact
+
+    def _volumes(self) -> Array:
+        kinds, dimensions = self._columns["kinds"], self._columns["dimensions"]
+        volumes = np.zeros(len(kinds))
+        for kind in np.unique(kinds).tolist():
+            rows = kinds == kind
+            volumes[rows] = solid_volume(Kind(kind), dimensions[rows])
+        for row in np.flatnonzero(kinds == Kind.MESH).tolist():
+            volumes[row] = self._world.meshes[int(self._columns["mesh_ids"][row])].volume
+        return volumes
+
+    def _derived_inertias(self) -> Array:
+        """Where the inertia is the one that shape and mass have by themselves, to the last bit."""
+        columns = self._columns
+        solid = columns["kinds"] != Kind.UNION
+        _, inertias = mass_and_inertia(
+            columns, columns["masses"], self._world.materials, self._world.meshes
+        )
+        return solid & np.all(same_bits(inertias, columns["inertias"]), axis=(1, 2))
+
+    def shape(self, row: int, pose_steps: str) -> str:
+        """The shape element of a primitive that stands at `pose_steps` in its rigid_body."""
+        columns = self._columns
+        kind = Kind(self.kinds[row])
+        mesh = None
+        if kind is Kind.MESH:
+            mesh = self._world.meshes[int(columns["mesh_ids"][row])]
+        hollow = "<hollow>true</hollow>" if columns["hollow"][row] else ""
+        material = _material(int(columns["material_ids"][row]))
+        steps = pose_steps + settling_steps(kind, mesh)
+        return f"<shape>{hollow}{self.weight[row]}{material}{self.geometry[row]}{steps}</shape>"
+
+    def shapes(self) -> list[str]:
+        """The shape elements of primitives that are their rigid_body's only shape."""
+        columns = self._columns
+        materials = {id: _material(id) for id in np.unique(columns["material_ids"]).tolist()}
+        hollow = ("", "<hollow>true</hollow>")
+        settled: dict[tuple[int, int], str] = {}
+        for kind, id in set(zip(self.kinds, columns["mesh_ids"].tolist(), strict=True)):
+            mesh = self._world.meshes[id] if kind == Kind.MESH else None
+            settled[kind, id] = settling_steps(Kind(kind), mesh)
+        return [
+            f"<shape>{hollow[is_hollow]}{weight}{materials[material]}{geometry}"
+            f"{settled[kind, mesh_id]}</shape>"
+            for is_hollow, weight, material, geometry, kind, mesh_id in zip(
+                columns["hollow"].tolist(),
+                self.weight,
+                columns["material_ids"].tolist(),
+                self.geometry,
+                self.kinds,
+                columns["mesh_ids"].tolist(),
+                strict=True,
+            )
+        ]
+
+    def values(self, row: int, fixed: bool | None = None) -> str:
+        """The values of the pe profile that are needed for a primitive: mass and inertia."""
+        columns = self._columns
+        text = ""
+        if fixed is not None and self._options.profile == "full":
+            text += f"<pe:fixed>{_BOOLEANS[fixed]}</pe:fixed>"
+        if self.says_mass[row]:
+            text += f"<pe:mass>{float_text(float(columns['masses'][row]))}</pe:mass>"
+        if self.says_inertia[row]:
+            text += inertia_text(columns["inertias"][row])
+        return text
+
+    def profile_shape(self, row: int, anchor: Sequence[float] | None) -> str:
+        """The geometry of the pe profile, if it is needed."""
+        if not self.says_shape[row]:
+            return ""
+        kind = Kind(self.kinds[row])
+        return profile_geometry(kind, self._columns["dimensions"][row].tolist(), anchor)
+
+
+_BOOLEANS = ("false", "true")
+
+
+def inertia_text(inertia: Array) -> str:
+    """A 3x3 tensor of the pe profile."""
+    return f"<pe:inertia>{floats_text(inertia.reshape(9).tolist())}</pe:inertia>"
+
+
+def _material(id: int) -> str:
+    return f'<instance_physics_material url="#Material{id}"/>'
+
+
+def rotation_texts(orientations: Array) -> list[str]:
+    """The rotate element of each of (n, 4) quaternions; nothing for the identity."""
+    turned = ~np.all(same_bits(orientations, np.broadcast_to(_NO_TURN, orientations.shape)), axis=1)
+    texts = [""] * len(orientations)
+    rows = np.flatnonzero(turned)
+    if len(rows):
+        axes, angles = rotations.to_axis_angle(orientations[rows])
+        made = row_texts(np.column_stack([axes, np.degrees(angles)]))
+        for row, text in zip(rows.tolist(), made, strict=True):
+            texts[row] = f"<rotate>{text}</rotate>"
+    return texts
+
+
+def _unless_zero(name: str, rows: Array) -> list[str]:
+    """An element for each row; nothing where all its numbers are (positive) zeros."""
+    texts = [f"<{name}>{text}</{name}>" for text in row_texts(rows)]
+    for row in np.flatnonzero(np.all(same_bits(rows, np.zeros(rows.shape)), axis=1)).tolist():
+        texts[row] = ""
+    return texts
+
+
+def node_texts(sids: Array, positions: Array, orientations: Array) -> list[str]:
+    """The node of each body, which says where it is (thesis 5.4)."""
+    return [
+        f'<node id="Node{sid}">{translate}{rotate}</node>' if translate or rotate
+        else f'<node id="Node{sid}"/>'
+        for sid, translate, rotate in zip(
+            sids.tolist(),
+            _unless_zero("translate", positions),
+            rotation_texts(orientations),
+            strict=True,
+        )
+    ]  # fmt: skip
+
+
+def instance_texts(columns: dict[str, Array], options: WriteOptions, moved: Array) -> list[str]:
+    """The instance_rigid_body of each body: how it moves, and its exact pose where needed.
+
+    `moved` marks bodies whose node says where they are (not planes).
+    """
+    degrees, exact = degrees_exactly(columns["angular_velocities"])
+    full = options.profile == "full"
+    common = [
+        f"<technique_common>{angular}{linear}</technique_common>" if angular or linear
+        else "<technique_common/>"
+        for angular, linear in zip(
+            _unless_zero("angular_velocity", degrees),
+            _unless_zero("velocity", columns["linear_velocities"]),
+            strict=True,
+        )
+    ]  # fmt: skip
+    motion = [""] * len(common)
+    if options.profile != "none":
+        motion = _motions(columns, full, np.all(exact, axis=1), moved)
+    return [
+        f'<instance_rigid_body body="Body{sid}" target="#Node{sid}">{values}{technique}'
+        "</instance_rigid_body>"
+        for sid, values, technique in zip(columns["sids"].tolist(), common, motion, strict=True)
+    ]
+
+
+def _motions(columns: dict[str, Array], full: bool, exact: Array, moved: Array) -> list[str]:
+    """The pe profile's technique of each instance."""
+    count = len(exact)
+    texts = [""] * count
+    orientations = columns["orientations"]
+    turned = ~np.all(same_bits(orientations, np.broadcast_to(_NO_TURN, (count, 4))), axis=1)
+    wanted = {
+        "position": (columns["positions"], np.full(count, full) & moved),
+        "orientation": (orientations, turned | full),
+        "linear_velocity": (columns["linear_velocities"], np.full(count, full)),
+        "angular_velocity": (columns["angular_velocities"], ~exact | full),
+        "force": (columns["forces"], _some(columns["forces"])),
+        "torque": (columns["torques"], _some(columns["torques"])),
+    }
+    for name, (values, where) in wanted.items():
+        rows = np.flatnonzero(where)
+        for row, text in zip(rows.tolist(), row_texts(values[rows]), strict=True):
+            texts[row] += f"<pe:{name}>{text}</pe:{name}>"
+    sleeping = columns["sleeping"].tolist()
+    return [
+        pe_technique(
+            f'<pe:motion{_SLEEPING[asleep]}>{text}</pe:motion>' if text
+            else f'<pe:motion{_SLEEPING[asleep]}/>'
+        ) if text or asleep else ""
+        for text, asleep in zip(texts, sleeping, strict=True)
+    ]  # fmt: skip
+
+
+_SLEEPING = ("", ' sleeping="true"')
+
+
+def _some(rows: Array) -> Array:
+    return np.asarray(~np.all(same_bits(rows, np.zeros(rows.shape)), axis=1))

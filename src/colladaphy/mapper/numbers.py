@@ -1,0 +1,82 @@
+"""Numbers as text and back, exactly.
+
+The shortest text that reads back to the same double, without a fraction that is zero: ``0.1``,
+``-0``, ``5e-324``, ``INF`` (XML Schema's spelling). Columns become text in one go.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = [
+    "DEGREE",
+    "column_texts",
+    "degrees_exactly",
+    "float_text",
+    "floats_text",
+    "row_texts",
+    "same_bits",
+]
+
+Array = NDArray[Any]
+
+DEGREE = math.pi / 180.0
+"""One degree in radians; angles are converted with one multiplication by it."""
+
+
+def float_text(value: float) -> str:
+    """One number."""
+    if value - value != 0.0:
+        return "NaN" if value != value else ("INF" if value > 0 else "-INF")
+    text = repr(float(value))
+    return text[:-2] if text.endswith(".0") else text
+
+
+def floats_text(values: Iterable[float]) -> str:
+    """Numbers, separated by blanks."""
+    return " ".join(map(float_text, values))
+
+
+def column_texts(column: Array) -> list[str]:
+    """One text for each of (n,) finite numbers."""
+    return row_texts(column.reshape(-1, 1))
+
+
+def row_texts(rows: Array) -> list[str]:
+    """One text for each row of (n, m) finite numbers."""
+    if not len(rows):
+        return []
+    # A list's repr writes every number as repr() does, all in one call.
+    text = repr(rows.tolist())[2:-2].replace(", ", " ").replace("] [", "\n")
+    text += "\n"
+    return text.replace(".0 ", " ").replace(".0\n", "\n")[:-1].split("\n")
+
+
+def same_bits(first: Array, second: Array) -> Array:
+    """Where two arrays of doubles of the same shape agree in every bit (so that 0 is not -0)."""
+    one = np.ascontiguousarray(first, dtype=np.float64).view(np.int64)
+    other = np.ascontiguousarray(second, dtype=np.float64).view(np.int64)
+    return np.asarray(one == other)
+
+
+def degrees_exactly(radians: Array) -> tuple[Array, Array]:
+    """Degrees that convert back to the same radians where there are any, and where there are.
+
+    Of the neighbouring doubles the one is taken whose product with `DEGREE` is exact.
+    """
+    radians = np.asarray(radians, dtype=np.float64)
+    with np.errstate(all="ignore"):
+        best = radians / DEGREE
+        exact = same_bits(best * DEGREE, radians)
+        for towards in (np.inf, -np.inf):
+            other = np.nextafter(best, towards)
+            better = ~exact & same_bits(other * DEGREE, radians)
+            best = np.where(better, other, best)
+            exact |= better
+    best = np.where(np.isfinite(radians) & ~np.isfinite(best), np.sign(radians) * 1.7e308, best)
+    return best, exact

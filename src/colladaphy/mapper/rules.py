@@ -1,0 +1,150 @@
+"""What can be noticed while a document becomes a World, or a World a document."""
+
+from __future__ import annotations
+
+from colladaphy.findings import Rule, Severity
+
+__all__ = ["RULES"]
+
+_ERROR = Severity.ERROR
+_WARNING = Severity.WARNING
+_INFO = Severity.INFO
+
+NO_SCENE = Rule(
+    "load-no-scene",
+    _WARNING,
+    "The document instances no physics scene, so there is nothing to load.",
+    "Choose a scene: doc.scenes[...].load(), or add <instance_physics_scene> to <scene>.",
+    "thesis 5.3",
+)
+SEVERAL_GRAVITIES = Rule(
+    "load-several-gravities",
+    _WARNING,
+    "Several scenes with different gravity or time step are loaded into one World.",
+    "Load them into Worlds of their own; the first scene's values are taken.",
+    "thesis 4.1",
+)
+EMPTY_SHAPE = Rule(
+    "load-empty-shape",
+    _WARNING,
+    "A shape has no volume, so its body cannot be represented and is skipped.",
+    "Give all lengths and radii a value greater than zero.",
+    "thesis 6.2.2",
+)
+NO_GEOMETRY = Rule(
+    "load-no-geometry",
+    _WARNING,
+    "A body's geometry cannot be represented, and the body is skipped.",
+    "Rigid bodies need a mesh of polygons that encloses a volume, or a primitive.",
+    "thesis 4.2",
+)
+BAD_VALUE = Rule(
+    "load-bad-value",
+    _WARNING,
+    "A body has a value that a World cannot hold, and is skipped.",
+    "Masses are not negative, poses and velocities are finite numbers.",
+)
+BODY_TWICE = Rule(
+    "load-body-twice",
+    _ERROR,
+    "A constraint attaches to a body that is instanced more than once in the same model instance, "
+    "so which one is meant cannot be told.",
+    "Instance the physics model twice instead, or give each instance a rigid_body of its own.",
+    "thesis 3.3",
+)
+CONSTRAINT_SKIPPED = Rule(
+    "load-constraint-skipped",
+    _WARNING,
+    "A constraint attaches to a body that was not loaded, and is skipped.",
+    "Load the model that holds the body too, or correct the attachment.",
+    "thesis 5.3",
+)
+CONSTRAINT_FAULTY = Rule(
+    "load-constraint-faulty",
+    _WARNING,
+    "A constraint cannot be represented, and is skipped.",
+    "A constraint binds two different bodies, or a body and the world, within limits min to max.",
+    "thesis 4.5",
+)
+DENSITY_ASSUMED = Rule(
+    "load-density-assumed",
+    _INFO,
+    "Neither mass nor density is given: the density 1 is assumed.",
+    "Give the body a mass or its shapes a density.",
+    "thesis 4.4",
+)
+MATERIAL_ASSUMED = Rule(
+    "load-material-assumed",
+    _INFO,
+    "A body has no physics material: standard values are assumed.",
+    "Give the body or its shapes a physics material.",
+    "thesis 4.4",
+)
+MATERIAL_BAD = Rule(
+    "load-material-bad",
+    _WARNING,
+    "A value of a material is out of its range, and the nearest one in it is taken.",
+    "Restitution is in [0, 1], frictions are not negative, density is positive.",
+    "thesis 4.4",
+)
+MATERIAL_RENAMED = Rule(
+    "load-material-renamed",
+    _INFO,
+    "A material's name is in use by another one in the World; a number is appended.",
+    None,
+    "thesis 4.4",
+)
+SYSTEM_ID_TAKEN = Rule(
+    "load-system-id-taken",
+    _INFO,
+    "A body's or joint's system id is in use in the World, so it got the next free one.",
+    "Load into an empty World to keep all system ids.",
+    "thesis 6.1",
+)
+HULL = Rule(
+    "load-hull",
+    _INFO,
+    "The convex hull of a geometry was computed.",
+    None,
+    "COLLADA 1.5 §convex_mesh",
+)
+STALE = Rule(
+    "profile-stale",
+    _WARNING,
+    "The common profile was edited after the pe profile was written: the edited value is taken.",
+    'Load with prefer="profile" to take the pe profile\'s value instead.',
+    "thesis 6.2.1",
+)
+BAD_PROFILE = Rule(
+    "profile-not-understood",
+    _WARNING,
+    "The pe profile of an element does not fit its common profile, and is not used.",
+    "Write the document again with colladaphy.",
+    "thesis 4.3",
+)
+CHECKSUM = Rule(
+    "profile-checksum",
+    _WARNING,
+    "The engine's state does not fit its checksum, and is left out.",
+    "The simulation goes on from the bodies' state alone, not exactly as it would have.",
+)
+
+RULES = (
+    NO_SCENE,
+    SEVERAL_GRAVITIES,
+    EMPTY_SHAPE,
+    NO_GEOMETRY,
+    BAD_VALUE,
+    BODY_TWICE,
+    CONSTRAINT_SKIPPED,
+    CONSTRAINT_FAULTY,
+    DENSITY_ASSUMED,
+    MATERIAL_ASSUMED,
+    MATERIAL_BAD,
+    MATERIAL_RENAMED,
+    SYSTEM_ID_TAKEN,
+    HULL,
+    STALE,
+    BAD_PROFILE,
+    CHECKSUM,
+)
