@@ -116,9 +116,11 @@ class Draft:
         if parent is not None:
             self._keep(detach(element), parent)
 
-    def keep_copy(self, element: etree._Element, near: etree._Element) -> None:
-        """Keep a loose element of the 1.5 namespace in the extra that serves `near`."""
-        self._keep(element, near)
+    def keep_copy(self, twin: etree._Element, original: etree._Element) -> None:
+        """Keep a loose element, which says what `original` said, as if that were moved."""
+        parent = original.getparent()
+        if parent is not None:
+            self._keep(twin, parent)
 
     def keep_attributes(self, element: etree._Element, *names: str) -> None:
         """Move attributes to an element of the same name in the extra that serves `element`."""
@@ -127,7 +129,8 @@ class Draft:
             twin = self.make(local(element), attributes=kept)
             if "id" in element.attrib and not _may_hold(element):
                 twin.set("id", element.attrib["id"])
-            self._keep(twin, element)
+            parent = element.getparent()
+            self._keep(twin, element if _may_hold(element) or parent is None else parent)
 
     def make(
         self, name: str, text: str | None = None, attributes: Mapping[str, str] | None = None

@@ -60,7 +60,7 @@ def in_namespace_1_4(draft: Draft) -> etree._Element:
             (twin, child, _treatment(draft, element, child, standard))
             for child in reversed(element)
         )
-    for node in old.itersiblings(preceding=True):
+    for node in reversed(list(old.itersiblings(preceding=True))):
         new.addprevious(_loose(node))
     for node in reversed(list(old.itersiblings())):
         new.addnext(_loose(node))
