@@ -1,0 +1,209 @@
+"""The XSD gate: every kind of deviation has its code, its place, and words that people read."""
+
+from __future__ import annotations
+
+import pytest
+
+from colladaphy.findings import Finding
+from colladaphy.schema import gate, schema_folder
+from colladaphy.source import COLLADA_1_5, parse
+
+ASSET = (
+    "<asset><created>2010-01-01T00:00:00Z</created>"
+    "<modified>2010-01-01T00:00:00Z</modified></asset>"
+)
+
+
+def document(body: str, version: str = "1.5.0") -> bytes:
+    return (
+        f'<COLLADA xmlns="{COLLADA_1_5}" xmlns:pe="urn:colladaphy:pe:1" version="{version}">'
+        f"{body}</COLLADA>"
+    ).encode()
+
+
+def model(body: str) -> str:
+    library = "library_physics_models"
+    return f"{ASSET}<{library}><physics_model>{body}</physics_model></{library}>"
+
+
+def nodes(content: str) -> str:
+    return f"{ASSET}<library_nodes>{content}</library_nodes>"
+
+
+def technique(content: str) -> str:
+    return f'{ASSET}<extra><technique profile="pe">{content}</technique></extra>'
+
+
+def body(common: str, attributes: str = 'sid="a"') -> str:
+    return f"<rigid_body {attributes}><technique_common>{common}</technique_common></rigid_body>"
+
+
+SHAPE = "<shape><sphere><radius>1</radius></sphere></shape>"
+
+
+def findings(body: str, version: str = "1.5.0") -> list[Finding]:
+    return gate(parse(document(body, version)).tree)
+
+
+def test_the_schema_files_are_there() -> None:
+    assert (schema_folder() / "document.xsd").is_file()
+
+
+def test_a_valid_document_passes() -> None:
+    assert findings(ASSET) == []
+    assert findings(model(body(SHAPE))) == []
+
+
+@pytest.mark.parametrize(
+    ("content", "code", "words", "path"),
+    [
+        ("", "schema-missing-element", ["<COLLADA>", "<asset>"], "/COLLADA"),
+        (ASSET + "<foo/>", "schema-unexpected-element", ["<foo>"], "/COLLADA/foo"),
+        (
+            model(body("<mass>1</mass>" + SHAPE + "<dynamic>true</dynamic>")),
+            "schema-unexpected-element",
+            ["<dynamic>", "<shape>"],
+            "/COLLADA/library_physics_models/physics_model/rigid_body/technique_common/dynamic",
+        ),
+        (model(body(SHAPE, "")), "schema-missing-attribute", ["<rigid_body>", "'sid'"], None),
+        (
+            model(body(SHAPE, 'sid="a" foo="1"')),
+            "schema-unknown-attribute",
+            ["<rigid_body>", "'foo'"],
+            None,
+        ),
+        (
+            model(body("<mass>abc</mass>" + SHAPE)),
+            "schema-invalid-value",
+            ["<mass>", "'abc'", "number"],
+            None,
+        ),
+        (
+            model(body("<dynamic>maybe</dynamic>" + SHAPE)),
+            "schema-invalid-value",
+            ["'maybe'", "true or false"],
+            None,
+        ),
+        (model(body("<mass/>" + SHAPE)), "schema-invalid-value", ["<mass>", "empty"], None),
+        (
+            model(body("<inertia>1 2</inertia>" + SHAPE)),
+            "schema-wrong-length",
+            ["<inertia>", "2", "exactly 3"],
+            None,
+        ),
+        (model(body("text" + SHAPE)), "schema-unexpected-content", ["<technique_common>"], None),
+        (
+            model(body("<mass>1<b/></mass>" + SHAPE)),
+            "schema-unexpected-content",
+            ["<mass>", "child elements"],
+            None,
+        ),
+        (
+            ASSET.replace("</asset>", "<up_axis>W</up_axis></asset>"),
+            "schema-invalid-value",
+            ["'W'", "X_UP, Y_UP, Z_UP"],
+            "/COLLADA/asset/up_axis",
+        ),
+        (
+            nodes('<node id="1"/>'),
+            "schema-invalid-value",
+            ["'id'", "<node>", "'1'"],
+            None,
+        ),
+        (
+            nodes('<node id="a"/><node id="a"/>'),
+            "schema-duplicate-id",
+            ["'a'", "<node>"],
+            "/COLLADA/library_nodes/node[2]",
+        ),
+        (
+            technique("<pe:nothing/>"),
+            "schema-unknown-element",
+            ["<pe:nothing>"],
+            None,
+        ),
+        (
+            technique("<pe:body><pe:no/></pe:body>"),
+            "schema-unexpected-element",
+            ["<pe:no>"],
+            "/COLLADA/extra/technique/body/no",
+        ),
+    ],
+)
+def test_each_kind_of_deviation(
+    content: str, code: str, words: list[str], path: str | None
+) -> None:
+    (finding,) = findings(content)
+    assert finding.code == code
+    assert finding.hint and finding.line == 1
+    for word in words:
+        assert word in finding.message
+    assert "{" not in finding.message and "collada.org" not in finding.message
+    if path:
+        assert finding.path == path
+
+
+def test_other_versions_are_told_apart() -> None:
+    def root(attributes: str) -> Finding:
+        (finding,) = gate(parse(f"<COLLADA {attributes}/>".encode()).tree)
+        return finding
+
+    old = root('xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1"')
+    assert old.code == "schema-version-1-4"
+    assert "convert" in str(old.hint)
+    assert root("").code == "schema-wrong-namespace"
+    assert (
+        root('xmlns="http://www.collada.org/2005/COLLADASchema"').code == "schema-wrong-namespace"
+    )
+    assert [finding.code for finding in findings(ASSET, "1.4.1")] == ["schema-invalid-value"]
+
+
+def test_findings_come_in_the_order_of_the_document() -> None:
+    content = "\n".join(
+        ['<library_nodes><node id="n" x="1"/>', '<node id="n"/>', '<node y="1"/></library_nodes>']
+    )
+    found = findings(ASSET + content)
+    assert [finding.line for finding in found] == [1, 2, 3]
+    assert found == findings(ASSET + content)
+
+
+def test_a_second_run_says_the_same() -> None:
+    tree = parse(
+        document(nodes('<node id="a"/><node id="a"/>'))
+    ).tree
+    assert [finding.code for finding in gate(tree)] == ["schema-duplicate-id"]
+    assert [finding.code for finding in gate(tree)] == ["schema-duplicate-id"]
+
+
+def test_edits_between_runs_are_seen() -> None:
+    """libxml2 keeps a table of ids in the tree that edits make wrong."""
+    tree = parse(
+        document(
+            nodes('<node id="a"/><node id="b"/><node id="c"/>')
+        )
+    ).tree
+    assert gate(tree) == []
+    one, two, three = tree.getroot()[1]
+    one.set("id", "b")
+    assert [finding.code for finding in gate(tree)] == ["schema-duplicate-id"]
+    two.set("id", "a")
+    assert gate(tree) == []
+    three.getparent().remove(three)
+    two.set("id", "c")
+    assert gate(tree) == []
+    del one.attrib["id"]
+    two.set("id", "b")
+    assert gate(tree) == []
+
+
+def test_ids_in_techniques_are_not_ours() -> None:
+    content = (
+        nodes('<node id="a"/>')
+        '<extra><technique profile="X"><x xmlns="" id="a"/><thing id="a"/></technique></extra>'
+    )
+    assert findings(content) == []
+
+
+def test_long_values_are_cut_short() -> None:
+    (finding,) = findings(model(body(f"<mass>{'x' * 100_000}</mass>" + SHAPE)))
+    assert len(finding.message) < 300
