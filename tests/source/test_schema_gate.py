@@ -168,20 +168,14 @@ def test_findings_come_in_the_order_of_the_document() -> None:
 
 
 def test_a_second_run_says_the_same() -> None:
-    tree = parse(
-        document(nodes('<node id="a"/><node id="a"/>'))
-    ).tree
+    tree = parse(document(nodes('<node id="a"/><node id="a"/>'))).tree
     assert [finding.code for finding in gate(tree)] == ["schema-duplicate-id"]
     assert [finding.code for finding in gate(tree)] == ["schema-duplicate-id"]
 
 
 def test_edits_between_runs_are_seen() -> None:
     """libxml2 keeps a table of ids in the tree that edits make wrong."""
-    tree = parse(
-        document(
-            nodes('<node id="a"/><node id="b"/><node id="c"/>')
-        )
-    ).tree
+    tree = parse(document(nodes('<node id="a"/><node id="b"/><node id="c"/>'))).tree
     assert gate(tree) == []
     one, two, three = tree.getroot()[1]
     one.set("id", "b")
@@ -199,7 +193,7 @@ def test_edits_between_runs_are_seen() -> None:
 def test_ids_in_techniques_are_not_ours() -> None:
     content = (
         nodes('<node id="a"/>')
-        '<extra><technique profile="X"><x xmlns="" id="a"/><thing id="a"/></technique></extra>'
+        + '<extra><technique profile="X"><x xmlns="" id="a"/><thing id="a"/></technique></extra>'
     )
     assert findings(content) == []
 
