@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colladaphy.world import rotations, values
+from colladaphy.world import planes, rotations, values
 from colladaphy.world.kinds import Kind
 from colladaphy.world.materials import Material
 from colladaphy.world.meshes import Mesh
@@ -20,9 +20,6 @@ if TYPE_CHECKING:
 __all__ = ["Body"]
 
 Floats = NDArray[np.float64]
-
-# A stored normal or displacement stands for the pose as long as it agrees with it to rounding.
-_ROUNDING = 16 * float(np.finfo(np.float64).eps)
 
 
 class Body:
@@ -271,12 +268,22 @@ class Body:
         kind = self.kind
         if kind not in kinds:
             raise KindError(KIND.at(message=f"A {kind.name.lower()} has no {what}."))
-        return np.array(self._get("dimensions"))
+        return self.dimensions
 
     @property
     def dimensions(self) -> Floats:
-        """The stored dimensions (4,), as `colladaphy.world.shapes` lays them out."""
-        return np.array(self._get("dimensions"))
+        """Dimensions (4,) as `colladaphy.world.shapes` lays them out.
+
+        Normal and displacement of a plane are in the frame of `local_position`.
+        """
+        table, row = self.world.locate(self.sid)
+        if table.raw("kinds")[row] != Kind.PLANE:
+            return np.array(table.raw("dimensions")[row])
+        return planes.agreeing(
+            table.raw("dimensions")[row],
+            table.raw("positions")[row],
+            table.raw("orientations")[row],
+        )
 
     @property
     def hollow(self) -> bool:
@@ -308,17 +315,15 @@ class Body:
     @property
     def normal(self) -> Floats:
         """Outward unit normal of a plane in the world frame (3,)."""
-        stored = self._dimension("normal", (Kind.PLANE,))[:3]
-        return self.world.normal_of(self.sid, stored)
+        local = self._dimension("normal", (Kind.PLANE,))[:3]
+        parent = self.parent
+        return local if parent is None else rotations.rotate(parent.orientation, local)
 
     @property
     def displacement(self) -> float:
         """Distance of a plane from the origin along its normal: solid where n·x < d."""
-        stored = float(self._dimension("displacement", (Kind.PLANE,))[3])
-        products = (self.normal * self.position).tolist()
-        derived = sum(products)
-        slack = _ROUNDING * sum(map(abs, products))
-        return stored if abs(stored - derived) <= slack else derived
+        local = float(self._dimension("displacement", (Kind.PLANE,))[3])
+        return local if self.parent is None else float(self.normal @ self.position)
 
     @property
     def mesh(self) -> Mesh:

@@ -90,7 +90,7 @@ def _columns(
             )
         else:
             same = column == other
-        rows = np.flatnonzero(~same.reshape(len(sids), -1).all(axis=1))
+        rows = np.flatnonzero(~same.all(axis=tuple(range(1, same.ndim))))
         found.extend(
             f"{what} {sids[row]}, {name}: {column[row].tolist()!r} and {other[row].tolist()!r}"
             for row in rows[:_MOST].tolist()

@@ -72,6 +72,8 @@ def _check_dimensions(values: dict[str, Array]) -> None:
     kinds, dimensions = values["kinds"], values["dimensions"]
     for kind, needed in NEEDED.items():
         rows = kinds == kind
+        if not rows.any():
+            continue
         sizes = dimensions[rows][:, needed]
         good = (sizes > 0) & (sizes < np.inf)
         if not good.all():

@@ -215,6 +215,11 @@ class Joints(Sequence[Joint]):
         for sid in self._world.joint_table.column("sids").tolist():
             yield Joint(self._world, sid)
 
+    @property
+    def names(self) -> dict[int, str]:
+        """Names by system id, of the joints that have one."""
+        return self._world.joint_names
+
     def columns(self) -> dict[str, NDArray[Any]]:
         """All columns by name (``sids`` and those of `JOINT_FIELDS`), writable views."""
         return {name: self._world.joint_table.column(name) for name in ("sids", *JOINT_FIELDS)}

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from colladaphy.world import rotations
 
-__all__ = ["Part", "Sum", "add_up", "steiner"]
+__all__ = ["Part", "Sum", "add_up", "shared_motion", "steiner"]
 
 Array = NDArray[Any]
 
@@ -24,6 +24,8 @@ class Part:
     mass: float
     inertia: Array
     infinite: bool
+    linear_velocity: Array
+    angular_velocity: Array
 
 
 @dataclass(slots=True)
@@ -65,3 +67,25 @@ def add_up(parts: list[Part]) -> Sum:
 
 def _mean(parts: list[Part]) -> Array:
     return np.asarray(sum((part.position for part in parts), np.zeros(3)) / len(parts))
+
+
+def shared_motion(parts: list[Part], total: Sum) -> tuple[Array, Array]:
+    """Linear and angular velocity of the whole that keep both momenta of its parts.
+
+    An infinite whole has no momentum and stays at rest.
+    """
+    moving = any(np.any(part.linear_velocity) or np.any(part.angular_velocity) for part in parts)
+    if not moving or total.mass == 0:
+        return np.zeros(3), np.zeros(3)
+    linear = sum((part.mass * part.linear_velocity for part in parts), np.zeros(3)) / total.mass
+    momentum, inertia = np.zeros(3), np.zeros((3, 3))
+    for part in parts:
+        arm = part.position - total.center
+        own = rotations.rotate_tensor(part.orientation, part.inertia)
+        momentum += own @ part.angular_velocity
+        momentum += part.mass * np.cross(arm, part.linear_velocity - linear)
+        inertia += own + steiner(part.mass, arm)
+    if not (np.all(np.isfinite(inertia)) and np.all(np.isfinite(momentum))):
+        return linear, np.full(3, np.nan)
+    # Points on a line have no inertia about it: no spin there either.
+    return linear, np.asarray(np.linalg.pinv(inertia, hermitian=True) @ momentum)

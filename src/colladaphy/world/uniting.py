@@ -8,20 +8,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colladaphy.world import rotations, values
+from colladaphy.world import planes, rotations, values
 from colladaphy.world.body import Body
 from colladaphy.world.columns import MEMBER_FIELDS
 from colladaphy.world.creating import Creating
 from colladaphy.world.kinds import Kind
-from colladaphy.world.rules import JOINT_BODIES, UNION_MEMBERS, refuse
-from colladaphy.world.unions import Part, Sum, add_up, steiner
+from colladaphy.world.rules import JOINT_BODIES, NUMBER, UNION_MEMBERS, refuse
+from colladaphy.world.unions import Part, Sum, add_up, shared_motion, steiner
 
 __all__ = ["Uniting"]
 
 Floats = NDArray[np.float64]
-
-# A normal stands for its orientation as long as it agrees with it to rounding.
-_ROUNDING = 16 * float(np.finfo(np.float64).eps)
 
 
 class Uniting(Creating):
@@ -54,6 +51,37 @@ class Uniting(Creating):
         they are stored as they are. Joints at members go over to the union.
         """
         self._check_members(members)
+        with np.errstate(all="ignore"):
+            row, moved = self._union_row(
+                members, position, orientation, mass, inertia, fixed, linear_velocity,
+                angular_velocity, members_are_local,
+            )  # fmt: skip
+            carried = self._carried_joints(members, moved)
+        row["uids"] = values.user_id(uid)
+        sid = self.claim_sid(sid)
+        for body, member in zip(members, moved, strict=True):
+            self.top.remove(self.top.find(body.sid))
+            self.inner.append(body.sid, {**member, "parents": sid})
+        self.top.append(sid, row)
+        self.children[sid] = tuple(body.sid for body in members)
+        if name is not None:
+            self.names[sid] = str(name)
+        self._take_over_joints(sid, members, carried)
+        return self.handle(sid)
+
+    def _union_row(
+        self,
+        members: Sequence[Body],
+        position: ArrayLike | None,
+        orientation: ArrayLike | None,
+        mass: float | None,
+        inertia: ArrayLike | None,
+        fixed: bool | None,
+        linear_velocity: ArrayLike | None,
+        angular_velocity: ArrayLike | None,
+        members_are_local: bool,
+    ) -> tuple[dict[str, Any], list[dict[str, Any]]]:
+        """The row of a union to be, and those of its members; nothing is changed yet."""
         parts = [self._part(body.sid) for body in members]
         total = add_up(parts)
         turn = (
@@ -63,40 +91,34 @@ class Uniting(Creating):
             center = values.vector("position", position)
         else:
             center = np.zeros(3) if members_are_local else total.center
-        if members_are_local:
-            if inertia is None:
-                total = _about(total, np.zeros(3))
-        else:
-            if inertia is None:
-                total = _about(total, center)
+        if inertia is None:
+            total = _about(total, center if not members_are_local else np.zeros(3))
+            if not members_are_local:
                 total.inertia = rotations.rotate_tensor(rotations.conjugate(turn), total.inertia)
-        linear, angular = self._shared_motion(members, total, linear_velocity, angular_velocity)
+        linear, angular = np.zeros(3), np.zeros(3)
+        if linear_velocity is None or angular_velocity is None:
+            linear, angular = shared_motion(parts, add_up(parts))
+        if linear_velocity is not None:
+            linear = values.vector("linear velocity", linear_velocity)
+        if angular_velocity is not None:
+            angular = values.vector("angular velocity", angular_velocity)
         infinite = any(part.infinite for part in parts)
         fixes = any(body.fixed for body in members) if fixed is None else bool(fixed)
         row = {
-            "uids": values.user_id(uid),
             "kinds": Kind.UNION,
             "positions": center,
             "orientations": turn,
             "masses": values.mass(total.mass if mass is None else mass),
-            "inertias": total.inertia if inertia is None else values.inertia(inertia),
+            "inertias": values.inertia(total.inertia if inertia is None else inertia),
             "material_ids": -1,
             "mesh_ids": -1,
             "linear_velocities": linear,
             "angular_velocities": angular,
             "fixed": infinite or fixes,
         }
-        sid = self.claim_sid(sid)
         moved = [self._rebase(body.sid, center, turn, members_are_local) for body in members]
-        for body, member in zip(members, moved, strict=True):
-            self.top.remove(self.top.find(body.sid))
-            self.inner.append(body.sid, {**member, "parents": sid})
-        self.top.append(sid, row)
-        self.children[sid] = tuple(body.sid for body in members)
-        if name is not None:
-            self.names[sid] = str(name)
-        self._take_over_joints(sid, members)
-        return self.handle(sid)
+        _check_finite(row, *moved)
+        return row, moved
 
     def _check_members(self, members: Sequence[Body]) -> None:
         if not members:
@@ -117,12 +139,15 @@ class Uniting(Creating):
     def _part(self, sid: int) -> Part:
         """A body as its union, or its union-to-be, sees it."""
         table, row = self.locate(sid)
+        still = table is self.inner
         return Part(
             np.array(table.raw("positions")[row]),
             np.array(table.raw("orientations")[row]),
             float(table.raw("masses")[row]),
             np.array(table.raw("inertias")[row]),
             self.is_infinite(sid),
+            np.zeros(3) if still else np.array(table.raw("linear_velocities")[row]),
+            np.zeros(3) if still else np.array(table.raw("angular_velocities")[row]),
         )
 
     def _rebase(self, sid: int, center: Floats, turn: Floats, local: bool) -> dict[str, Any]:
@@ -135,68 +160,39 @@ class Uniting(Creating):
                 back = rotations.conjugate(rotations.normalize(turn))
                 row["orientations"] = rotations.multiply(back, row["orientations"])
             row["positions"] = offset
+            if row["kinds"] == Kind.PLANE:
+                row["dimensions"] = planes.agreeing(row["dimensions"], offset, row["orientations"])
         return row
 
-    def _shared_motion(
-        self,
-        members: Sequence[Body],
-        total: Sum,
-        linear: ArrayLike | None,
-        angular: ArrayLike | None,
-    ) -> tuple[Floats, Floats]:
-        """The motion of the union that keeps linear and angular momentum of its members."""
-        shift, spin = np.zeros(3), np.zeros(3)
-        bodies = [self.top.values(self.top.find(body.sid)) for body in members]
-        moving = any(
-            np.any(row["linear_velocities"]) or np.any(row["angular_velocities"]) for row in bodies
-        )
-        if moving and total.mass > 0 and (linear is None or angular is None):
-            shift = sum((row["masses"] * row["linear_velocities"] for row in bodies), shift)
-            shift = shift / total.mass
-            momentum = np.zeros(3)
-            for row in bodies:
-                own = rotations.rotate_tensor(row["orientations"], row["inertias"])
-                arm = row["positions"] - total.center
-                momentum += own @ row["angular_velocities"]
-                momentum += row["masses"] * np.cross(arm, row["linear_velocities"] - shift)
-            middle = sum(
-                (
-                    rotations.rotate_tensor(row["orientations"], row["inertias"])
-                    + steiner(float(row["masses"]), row["positions"] - total.center)
-                    for row in bodies
-                ),
-                np.zeros((3, 3)),
-            )
-            spin = np.linalg.pinv(middle, hermitian=True) @ momentum
-        if linear is not None:
-            shift = values.vector("linear velocity", linear)
-        if angular is not None:
-            spin = values.vector("angular velocity", angular)
-        return shift, spin
+    def _carried_joints(
+        self, members: Sequence[Body], moved: Sequence[dict[str, Any]]
+    ) -> list[tuple[int, int, Floats, Floats]]:
+        """The joints at the members: system id, side, and the frame relative to the union."""
+        carried = []
+        for body, row in zip(members, moved, strict=True):
+            for joint in self.joints_of.get(body.sid, ()):
+                place = self.joint_table.find(joint)
+                side = int(self.joint_table.raw("bodies")[place][1] == body.sid)
+                point = self.joint_table.raw("positions")[place][side]
+                turn = self.joint_table.raw("orientations")[place][side]
+                point = row["positions"] + rotations.rotate(row["orientations"], point)
+                turn = rotations.multiply(row["orientations"], turn)
+                _check_finite({"positions": point, "orientations": turn})
+                carried.append((joint, side, point, turn))
+        return carried
 
-    def _take_over_joints(self, sid: int, members: Sequence[Body]) -> None:
+    def _take_over_joints(
+        self, sid: int, members: Sequence[Body], carried: list[tuple[int, int, Floats, Floats]]
+    ) -> None:
         for body in members:
             joints = self.joints_of.pop(body.sid, [])
-            if not joints:
-                continue
-            table, member = self.locate(body.sid)
-            offset = table.raw("positions")[member]
-            turn = table.raw("orientations")[member]
-            for joint in joints:
-                row = self.joint_table.find(joint)
-                pair = self.joint_table.raw("bodies")[row]
-                side = int(pair[1] == body.sid)
-                pair[side] = sid
-                points = self.joint_table.raw("positions")[row]
-                points[side] = offset + rotations.rotate(turn, points[side])
-                turns = self.joint_table.raw("orientations")[row]
-                turns[side] = rotations.multiply(turn, turns[side])
-            self.joints_of.setdefault(sid, []).extend(joints)
-
-    def normal_of(self, sid: int, stored: Floats) -> Floats:
-        """The normal of a plane: as it was given, unless the plane was turned since."""
-        turned = rotations.to_matrix(self.pose_of(sid)[1])[:, 2]
-        return stored if np.all(np.abs(turned - stored) <= _ROUNDING) else turned
+            if joints:
+                self.joints_of.setdefault(sid, []).extend(joints)
+        for joint, side, point, turn in carried:
+            place = self.joint_table.find(joint)
+            self.joint_table.raw("bodies")[place][side] = sid
+            self.joint_table.raw("positions")[place][side] = point
+            self.joint_table.raw("orientations")[place][side] = turn
 
     def place(self, sid: int, position: Floats | None, orientation: Floats | None) -> None:
         """Move a body to a pose in the world frame.
@@ -242,3 +238,10 @@ def _about(total: Sum, point: Floats) -> Sum:
     if total.mass == 0 or np.array_equal(point, total.center):
         return total
     return Sum(total.mass, point, total.inertia + steiner(total.mass, total.center - point))
+
+
+def _check_finite(*rows: dict[str, Any]) -> None:
+    for row in rows:
+        for name in ("positions", "orientations", "linear_velocities", "angular_velocities"):
+            if name in row and not np.all(np.isfinite(row[name])):
+                raise refuse(NUMBER, f"The {name} in the union are out of the range of numbers.")

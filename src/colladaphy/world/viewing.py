@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from colladaphy.world.columns import BODY_FIELDS, MEMBER_FIELDS, BodyColumns, MemberColumns
 from colladaphy.world.core import Core
 from colladaphy.world.kinds import Kind
+from colladaphy.world.table import Table
 
 __all__ = ["Viewing"]
 
@@ -75,16 +76,19 @@ class Viewing(Core):
 
         Planes that were moved have their new normal and displacement.
         """
-        view = self.top.column("dimensions")
-        for row in np.flatnonzero(self.top.column("kinds") == Kind.PLANE).tolist():
-            plane = self.handle(int(self.top.raw("sids")[row]))
-            view[row] = plane.dimensions
+        return self._dimensions_in(self.top)
+
+    def _dimensions_in(self, table: Table) -> Array:
+        view = table.column("dimensions")
+        for row in np.flatnonzero(table.column("kinds") == Kind.PLANE).tolist():
+            view[row] = self.handle(int(table.raw("sids")[row])).dimensions
         view.flags.writeable = False
         return view
 
     @property
     def member_columns(self) -> MemberColumns:
         """The members of all unions by column; writable views, poses relative to the union."""
+        self._dimensions_in(self.inner)
         column = self.inner.column
         return MemberColumns(sids=column("sids"), **{key: column(key) for key in MEMBER_FIELDS})
 
