@@ -5,7 +5,7 @@ from __future__ import annotations
 from lxml import etree
 
 from colladaphy.conform.context import NS, Context, local
-from colladaphy.conform.grammar import ComplexType, Declaration, Group, SimpleType
+from colladaphy.conform.grammar import Declaration, Group, SimpleType
 
 __all__ = ["assumed_attribute", "assumed_element"]
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Collection, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping
+from typing import cast
 
 from lxml import etree
 
@@ -14,12 +16,20 @@ __all__ = ["CONFORM", "NS", "Context", "local"]
 
 NS = "{" + NAMESPACE + "}"
 CONFORM = "urn:colladaphy:conform:1"
+# The stubs of lxml do not know that a prefix may be None.
+OWN_MAP = cast(Mapping[str, str], {None: CONFORM})
 
 
 def local(element: etree._Element) -> str:
     """The local name of an element; "" for a comment or a processing instruction."""
     tag = element.tag
     return tag.rpartition("}")[2] if isinstance(tag, str) else ""
+
+
+def line_of(element: etree._Element) -> int | None:
+    """The source line of an element, from 1; None where it has none."""
+    line = element.sourceline
+    return line if isinstance(line, int) else None
 
 
 class Context:
@@ -43,6 +53,8 @@ class Context:
         self.origin = origin
         self.far_lines: dict[etree._Element, int] = {}
         self._only = None if only is None else frozenset(only)
+        self._map = cast(Mapping[str, str], {root.prefix: NAMESPACE})
+        self._labels: dict[etree._Element, dict[etree._Element, str]] = {}
         self._places: dict[tuple[etree._Element, str], etree._Element] = {}
         self._ids: dict[str, etree._Element] | None = None
 
@@ -55,9 +67,24 @@ class Context:
         line = None
         node = element
         while node is not None and line is None:
-            line = self.far_lines.get(node) or node.sourceline
+            line = self.far_lines.get(node) or line_of(node)
             node = node.getparent()
-        self.findings.append(rule.at(element, message, file=self.file, line=line))
+        path = None if element is None else self.path(element)
+        self.findings.append(rule.at(None, message, file=self.file, line=line, path=path))
+
+    def path(self, element: etree._Element) -> str:
+        """The path of an element, with positions as they were when first asked for.
+
+        The positions among siblings are counted once a parent, not once a finding.
+        """
+        steps: list[str] = []
+        node, parent = element, element.getparent()
+        while parent is not None:
+            if parent not in self._labels:
+                self._labels[parent] = _labels(parent)
+            steps.append(self._labels[parent].get(node) or local(node))
+            node, parent = parent, parent.getparent()
+        return "/" + "/".join(reversed([*steps, local(node)]))
 
     # -- finding things -----------------------------------------------------------------------
 
@@ -110,9 +137,9 @@ class Context:
 
     # -- making things ------------------------------------------------------------------------
 
-    def make(self, name: str, text: str | None = None, **attributes: str) -> etree._Element:
+    def make(self, name: str, text: str | None = None, /, **attributes: str) -> etree._Element:
         """A new element of the standard's namespace, in the prefix the document uses."""
-        element = etree.Element(NS + name, nsmap={self.root.prefix: NAMESPACE})
+        element = etree.Element(NS + name, nsmap=self._map)
         element.text = text
         for key, value in attributes.items():
             element.set(key, value)
@@ -154,7 +181,7 @@ class Context:
         technique = self.place(parent, profile)
         owner = technique.getparent()
         home = None if owner is None else owner.getparent()
-        moved = etree.SubElement(technique, f"{{{CONFORM}}}moved", nsmap={None: CONFORM})
+        moved = etree.SubElement(technique, f"{{{CONFORM}}}moved", nsmap=OWN_MAP)
         if home is not None and home is not parent:
             moved.set("from", path_below(home, parent))
         remove(element)
@@ -166,7 +193,7 @@ class Context:
         technique = self.place(near)
         owner = technique.getparent()
         home = None if owner is None else owner.getparent()
-        kept = etree.SubElement(technique, f"{{{CONFORM}}}{kind}", nsmap={None: CONFORM})
+        kept = etree.SubElement(technique, f"{{{CONFORM}}}{kind}", nsmap=OWN_MAP)
         if home is not None and home is not near:
             kept.set("from", path_below(home, near))
         for key, value in values.items():
@@ -175,6 +202,17 @@ class Context:
     def _may_have_extra(self, element: etree._Element) -> bool:
         kind = type_of(element)
         return kind is not None and "extra" in kind.children
+
+
+def _labels(parent: etree._Element) -> dict[etree._Element, str]:
+    names = [(child, local(child)) for child in parent.iterchildren(tag=etree.Element)]
+    total = Counter(name for _, name in names)
+    seen: Counter[str] = Counter()
+    labels = {}
+    for child, name in names:
+        seen[name] += 1
+        labels[child] = f"{name}[{seen[name]}]" if total[name] > 1 else name
+    return labels
 
 
 def type_of(element: etree._Element) -> ComplexType | None:

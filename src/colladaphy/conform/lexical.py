@@ -82,7 +82,8 @@ def _atom_is_valid(text: str, kind: SimpleType) -> bool:
         return (low is None or value >= low) and (high is None or value <= high)
     plain = _PLAIN.get(primitive)
     if plain is not None and not plain.fullmatch(text):
-        if primitive not in _ASKED or not _libxml_accepts(primitive, text):
+        accepted = primitive in _ASKED and _libxml_accepts(primitive, text)
+        if not accepted:
             return False
     if kind.enumeration and text not in kind.enumeration:
         return False
@@ -215,7 +216,7 @@ def name_from(text: str) -> str:
 
 
 def _uri(text: str) -> str:
-    text = text.replace("\\", "/")
+    text = re.sub(r"^(file:)//(?=[A-Za-z][:|]/)", r"\1///", text.replace("\\", "/"))
     if re.match(r"[A-Za-z]:/", text):
         text = "file:///" + text
     elif text.startswith("//") and " " not in text.partition("/")[0]:

@@ -11,7 +11,7 @@ from lxml import etree
 
 from colladaphy.conform import rules
 from colladaphy.conform.assumptions import assumed_attribute, assumed_element
-from colladaphy.conform.context import NS, Context, append, local
+from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.grammar import (
     Attribute,
     ComplexType,
@@ -243,7 +243,7 @@ class _Normaliser:
     def _reorder(self, element: etree._Element, order: list[etree._Element]) -> None:
         stashed = [child for child in element.iterchildren(NS + "extra") if child not in set(order)]
         order = [*order, *stashed]
-        before = [child for child in element.iterchildren(tag=etree.Element)]
+        before = list(element.iterchildren(tag=etree.Element))
         kept = [child for child in order if child.getparent() is element]
         if before != kept:
             if not self.context.wants(rules.CHILD_ORDER):

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import bodies, references, rules, shapes, structure, upgrade
 from colladaphy.conform.context import Context
 from colladaphy.conform.identifiers import mend_ids, mend_sids
 from colladaphy.conform.normalise import normalise
@@ -14,6 +14,43 @@ from colladaphy.conform.versions import copy_as_1_5, detect_version, note_versio
 from colladaphy.findings import Finding
 
 __all__ = ["conform"]
+
+_Step = Callable[[Context], None]
+_UPGRADE: tuple[_Step, ...] = (
+    mend_ids,
+    upgrade.move_effect_images,
+    upgrade.upgrade_images,
+    upgrade.upgrade_samplers,
+    upgrade.set_aside_profiles,
+)
+_REPAIR: tuple[_Step, ...] = (
+    structure.correct_names,
+    mend_ids,
+    mend_sids,
+    structure.house_strays,
+    structure.wrap_children,
+    shapes.convert_tapered,
+    shapes.lift_inline_meshes,
+    shapes.extend_capsule_radii,
+    shapes.mend_radii,
+    shapes.split_shapes,
+    shapes.drop_empty_shapes,
+    bodies.split_matrices,
+    bodies.diagonalise_inertia,
+    bodies.drop_empty_mass_frames,
+    bodies.name_bodies,
+    bodies.wrap_bare_instances,
+    bodies.complete_constraints,
+    references.mend_urls,
+    references.complete_instances,
+    references.mend_instances,
+    references.mend_attachments,
+    bodies.give_shapes,
+    structure.drop_empty_bindings,
+    structure.give_geometries_content,
+    structure.drop_empty_libraries,
+    normalise,
+)
 
 
 def conform(
@@ -38,7 +75,9 @@ def conform(
     context = Context(twin.getroot(), file=file, only=only, origin=origin)
     context.far_lines = far_lines
     note_version(context, tree.getroot(), version)
-    mend_ids(context)
-    mend_sids(context)
-    normalise(context)
+    for step in _UPGRADE if version.startswith("1.4") else ():
+        step(context)
+    for step in _REPAIR:
+        step(context)
+    context.findings.sort(key=lambda finding: finding.line or 0)
     return twin, context.findings

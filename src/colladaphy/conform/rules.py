@@ -112,6 +112,185 @@ SID_EMPTY = Rule(
 SID_DUPLICATE = Rule(
     "repair-duplicate-sid", _WARNING, "a sid was used twice in one scope", "later ones were renamed"
 )
+# Structure.
+MISSPELT = Rule(
+    "repair-misspelt-element",
+    _WARNING,
+    "an element's name was misspelt",
+    "the standard's name is used",
+)
+WRAPPED = Rule(
+    "repair-wrapper",
+    _INFO,
+    "an element stood beside the wrapper it belongs in, or inside one it does not",
+    "values are unchanged",
+)
+STRAY = Rule(
+    "repair-outside-library",
+    _WARNING,
+    "an element that belongs in a library stood outside of one",
+    "it was moved into its library",
+)
+EMPTY_LIBRARY = Rule(
+    "repair-empty-library", _INFO, "a library was empty", "the standard allows no empty libraries"
+)
+EMPTY_BINDING = Rule(
+    "repair-empty-bind-material",
+    _INFO,
+    "a material binding bound nothing",
+    "the standard asks for at least one material",
+)
+EMPTY_GEOMETRY = Rule(
+    "repair-empty-geometry", _WARNING, "a geometry had no content", "complete it at its source"
+)
+# Shapes.
+TAPERED = Rule(
+    "upgrade-tapered-shape",
+    _WARNING,
+    "1.5 has no tapered shapes",
+    "the shape is a convex mesh now; the original is kept in an extra",
+)
+CAPSULE_RADIUS = Rule(
+    "upgrade-capsule-radius",
+    _INFO,
+    "a capsule has three radii in 1.5",
+    "check capsules that are not round",
+)
+SHAPE_SIZE = Rule(
+    "repair-shape-size",
+    _WARNING,
+    "a shape had too few numbers for its size",
+    "the one number is taken for each of them",
+)
+SPHERE_RADII = Rule(
+    "repair-sphere-radius",
+    _WARNING,
+    "a sphere had more than one radius",
+    "equal radii are one; others are an ellipsoid's",
+)
+INLINE_MESH = Rule(
+    "repair-inline-mesh", _WARNING, "a mesh stood directly in a shape", "shapes instance geometries"
+)
+SHAPE_SPLIT = Rule(
+    "repair-shape-split",
+    _WARNING,
+    "a shape had several geometries",
+    "write one shape for each geometry",
+)
+EMPTY_SHAPE = Rule(
+    "repair-empty-shape",
+    _INFO,
+    "a shape was empty",
+    "Bullet's converter writes one for every compound",
+)
+MISSING_SHAPE = Rule(
+    "repair-missing-shape",
+    _WARNING,
+    "a rigid body had no shape",
+    "the shape is assumed and marked so; give the body one at its source",
+)
+# Bodies and constraints.
+MISSING_SID = Rule(
+    "repair-missing-sid",
+    _WARNING,
+    "a rigid body or constraint had no sid",
+    "instances refer to it by its sid",
+)
+BARE_INSTANCE = Rule(
+    "repair-bare-instance",
+    _WARNING,
+    "a body was instanced outside of its model's instance",
+    "instance the physics model",
+)
+MISSING_ATTACHMENT = Rule(
+    "repair-missing-attachment",
+    _WARNING,
+    "a constraint had one attachment only",
+    "the other side is the world",
+)
+EMPTY_MASS_FRAME = Rule(
+    "repair-empty-mass-frame", _INFO, "a mass_frame had no transforms", "it is the default one"
+)
+MATRIX = Rule(
+    "repair-matrix",
+    _INFO,
+    "a matrix stood where only translate and rotate may stand",
+    "it was split into both",
+)
+INERTIA = Rule(
+    "repair-inertia-matrix",
+    _WARNING,
+    "inertia was a matrix",
+    "its principal values are given, in a turned mass_frame",
+)
+# References.
+MISSING_BODY = Rule(
+    "repair-missing-body",
+    _WARNING,
+    "an instance did not say what it instances",
+    "check the assumed body or constraint",
+)
+MISSING_TARGET = Rule(
+    "repair-missing-target",
+    _WARNING,
+    "an instance of a body had no target node",
+    "check the assumed node",
+)
+BODY_REFERENCE = Rule(
+    "repair-body-reference",
+    _INFO,
+    "an instance named its body otherwise than by its plain sid",
+    "the form that matched is reported",
+)
+ATTACHMENT_REFERENCE = Rule(
+    "repair-attachment-reference",
+    _INFO,
+    "an attachment named its body otherwise than by model-id/sid",
+    "the form that matched is reported",
+)
+HASH = Rule(
+    "repair-url-hash",
+    _INFO,
+    "a reference within the document did not begin with #",
+    "without # a url names another file",
+)
+DANGLING_SCENE = Rule(
+    "repair-dangling-scene",
+    _WARNING,
+    "a physics scene was instanced that is not there",
+    "check the scene that was taken",
+)
+# Images and effects.
+EFFECT_IMAGE = Rule(
+    "upgrade-effect-image",
+    _INFO,
+    "an image stood inside an effect",
+    "1.5 has images in their library only",
+)
+IMAGE = Rule(
+    "upgrade-image",
+    _INFO,
+    "an image's source is written otherwise in 1.5",
+    "its location or data is unchanged",
+)
+SAMPLER = Rule(
+    "upgrade-sampler",
+    _INFO,
+    "a sampler's content has no place in 1.5's schema",
+    "it is kept in an extra of the profile",
+)
+SURFACE = Rule(
+    "upgrade-surface",
+    _INFO,
+    "a surface has no place in 1.5",
+    "it is kept in an extra of the profile",
+)
+SHADER_PROFILE = Rule(
+    "upgrade-shader-profile",
+    _WARNING,
+    "a shader profile of 1.4 is built otherwise in 1.5",
+    "it is kept whole in an extra of the effect",
+)
 RULES: tuple[Rule, ...] = tuple(
     value for value in list(globals().values()) if isinstance(value, Rule)
 )

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Mapping
+from typing import Any, cast
 
 from lxml import etree
 
 from colladaphy.conform import rules
-from colladaphy.conform.context import Context, local
+from colladaphy.conform.context import Context, line_of, local
 from colladaphy.conform.grammar import NAMESPACE
 
 __all__ = ["NAMESPACE_1_4", "copy_as_1_5", "detect_version", "note_version"]
@@ -54,12 +56,12 @@ def copy_as_1_5(
             root.addprevious(copy.deepcopy(node))
         for node in reversed(list(old.itersiblings())):
             root.addnext(copy.deepcopy(node))
-    last = max((element.sourceline or 0) for element in list(old)[-1:] or [old])
+    last = max((line_of(element) or 0) for element in list(old)[-1:] or [old])
     far: dict[etree._Element, int] = {}
     if last >= _FAR:
         for before, after in zip(old.iter(), root.iter(), strict=True):
-            if (before.sourceline or 0) >= _FAR:
-                far[after] = before.sourceline or 0
+            if (line := line_of(before) or 0) >= _FAR:
+                far[after] = line
     return twin, far
 
 
@@ -72,9 +74,7 @@ def _is_old(tag: str) -> bool:
     namespace = tag[1:].partition("}")[0] if tag.startswith("{") else ""
     if namespace == NAMESPACE:
         return False
-    if "collada.org" in namespace and namespace.rstrip("/").endswith("COLLADASchema"):
-        return True
-    return False
+    return "collada.org" in namespace and namespace.rstrip("/").endswith("COLLADASchema")
 
 
 def _rebuild(old: etree._Element) -> etree._Element:
@@ -86,19 +86,21 @@ def _rebuild(old: etree._Element) -> etree._Element:
         ours = _is_old(tag) or (not namespace and bare) or (namespace and namespace == foreign)
         return f"{{{NAMESPACE}}}{name}" if ours else tag
 
-    def new_map(nsmap: dict[str | None, str]) -> dict[str | None, str]:
-        return {
-            prefix: NAMESPACE if uri == foreign or _is_old(f"{{{uri}}}x") else uri
-            for prefix, uri in nsmap.items()
-        }
+    def new_map(nsmap: Mapping[str | None, str]) -> Mapping[str, str]:
+        # The stubs of lxml do not know that a prefix may be None.
+        return cast(
+            Mapping[str, str],
+            {
+                prefix: NAMESPACE if uri == foreign or _is_old(f"{{{uri}}}x") else uri
+                for prefix, uri in nsmap.items()
+            },
+        )
 
     def attributes(element: etree._Element) -> dict[str, str]:
         return {str(key): str(value) for key, value in element.attrib.items()}
 
-    nsmap = new_map(dict(old.nsmap))
-    if bare:
-        nsmap[None] = NAMESPACE
-    root = etree.Element(new_tag(str(old.tag)), attributes(old), nsmap)
+    outer = {**old.nsmap, None: NAMESPACE} if bare else dict(old.nsmap)
+    root = etree.Element(new_tag(str(old.tag)), attributes(old), new_map(outer))
     twins = {old: root}
     maps = {old: dict(old.nsmap)}
     root.text = old.text
@@ -124,8 +126,8 @@ def _rebuild(old: etree._Element) -> etree._Element:
     return root
 
 
-def _set_line(twin: etree._Element, node: etree._Element) -> None:
-    twin.sourceline = min(node.sourceline or 0, _FAR)
+def _set_line(twin: Any, node: etree._Element) -> None:
+    twin.sourceline = min(line_of(node) or 0, _FAR)
 
 
 def note_version(context: Context, original: etree._Element, version: str) -> None:

@@ -1,0 +1,290 @@
+"""Rigid bodies, constraints and their instances: what is missing, and transforms as matrices."""
+
+from __future__ import annotations
+
+import numpy as np
+from lxml import etree
+
+from colladaphy.conform import rules
+from colladaphy.conform.context import CONFORM, NS, OWN_MAP, Context, append, insert, local, remove
+from colladaphy.conform.frames import axis_angle, nearest_rotation, of_element, transform_of
+from colladaphy.conform.lexical import name_from
+from colladaphy.conform.shapes import GEOMETRIES
+from colladaphy.conform.solids import numbers_of
+
+__all__ = [
+    "complete_constraints",
+    "diagonalise_inertia",
+    "drop_empty_mass_frames",
+    "give_shapes",
+    "name_bodies",
+    "place_elements",
+    "split_matrices",
+    "wrap_bare_instances",
+]
+
+_MESHES = ("triangles", "polylist", "polygons", "trifans", "tristrips")
+
+
+def name_bodies(context: Context) -> None:
+    """Bodies and constraints without a sid get one from their name, their id or their model."""
+    for model in context.all("physics_model"):
+        taken: set[str] = set()
+        unnamed = []
+        for element in model.iterchildren(NS + "rigid_body", NS + "rigid_constraint"):
+            if sid := element.get("sid"):
+                taken.add(sid)
+            elif context.wants(rules.MISSING_SID):
+                unnamed.append(element)
+        for element in unnamed:
+            kind = local(element)
+            base = element.get("name") or element.get("id") or ""
+            base = base or f"{model.get('name') or model.get('id') or 'model'}-{kind}"
+            sid = wish = name_from(base)
+            number = 2
+            while sid in taken:
+                sid, number = f"{wish}-{number}", number + 1
+            taken.add(sid)
+            element.set("sid", sid)
+            context.note(rules.MISSING_SID, element, f"<{kind}> had no sid; is now {sid!r}")
+
+
+def wrap_bare_instances(context: Context) -> None:
+    """Instances of bodies that stand in the scene itself get the instance of their model."""
+    owners_of: dict[tuple[str, str], list[etree._Element]] = {}
+    for model in context.all("physics_model"):
+        for kind in ("rigid_body", "rigid_constraint"):
+            for sid in {child.get("sid", "") for child in model.iterchildren(NS + kind)}:
+                owners_of.setdefault((kind, sid), []).append(model)
+    for scene in context.all("physics_scene"):
+        wrappers: dict[str, etree._Element] = {}
+        for kind, attribute in (("rigid_body", "body"), ("rigid_constraint", "constraint")):
+            for bare in list(scene.iterchildren(NS + "instance_" + kind)):
+                wanted = (bare.get(attribute) or "").rpartition("/")[2].lstrip("#")
+                owners = owners_of.get((kind, wanted), [])
+                if len(owners) != 1 or not context.wants(rules.BARE_INSTANCE):
+                    continue
+                model = owners[0]
+                if not model.get("id"):
+                    model.set("id", context.new_id(name_from(model.get("name") or "model")))
+                name = model.get("id", "")
+                if name not in wrappers:
+                    wrappers[name] = context.make("instance_physics_model", url=f"#{name}")
+                    insert(scene, scene.index(bare), wrappers[name])
+                message = f"<{local(bare)}> stood in the scene; now in an instance of #{name}"
+                context.note(rules.BARE_INSTANCE, bare, message)
+                remove(bare)
+                append(wrappers[name], bare)
+
+
+def complete_constraints(context: Context) -> None:
+    """A constraint with one attachment holds its body to the world."""
+    for constraint in context.all("rigid_constraint"):
+        for name, at in (("ref_attachment", 0), ("attachment", 1)):
+            if constraint.find(NS + name) is None and context.wants(rules.MISSING_ATTACHMENT):
+                first = [i for i, c in enumerate(constraint) if local(c) == "ref_attachment"]
+                new = context.make(name, rigid_body="")
+                insert(constraint, first[0] + 1 if at and first else 0, new)
+                message = f"<rigid_constraint> had no <{name}>: it holds its body to the world"
+                context.note(rules.MISSING_ATTACHMENT, constraint, message)
+
+
+def drop_empty_mass_frames(context: Context) -> None:
+    """A mass_frame without transforms is not allowed, and is the default one."""
+    for frame in context.all("mass_frame"):
+        empty = next(frame.iterchildren(tag=etree.Element), None) is None
+        if empty and not (frame.text or "").strip() and context.wants(rules.EMPTY_MASS_FRAME):
+            context.note(rules.EMPTY_MASS_FRAME, frame, "<mass_frame> was empty; removed")
+            remove(frame)
+
+
+def place_elements(context: Context, matrix: np.ndarray) -> list[etree._Element]:
+    """A rigid transform as translate and rotate; parts that do nothing are left out."""
+    made = []
+    if np.any(matrix[:3, 3] != 0.0):
+        made.append(context.make("translate", " ".join(_number(v) for v in matrix[:3, 3])))
+    axis = axis_angle(matrix)
+    if axis[3] != 0.0:
+        made.append(context.make("rotate", " ".join(_number(v) for v in axis)))
+    return made
+
+
+def _number(value: float) -> str:
+    """A float as XML Schema spells it; -0 and rounding dust near whole numbers are cleaned."""
+    whole = round(float(value))
+    if abs(value - whole) < 1e-14:
+        return str(whole)
+    return repr(float(value))
+
+
+def split_matrices(context: Context) -> None:
+    """A matrix where only translate and rotate may stand becomes these two."""
+    for matrix in context.all("matrix"):
+        parent = matrix.getparent()
+        if parent is None or local(parent) not in (
+            "shape", "mass_frame", "attachment", "ref_attachment", "link", "frame_origin",
+            "frame_tip", "frame_tcp", "frame_object", "attachment_full", "attachment_start",
+            "attachment_end",
+        ):  # fmt: skip
+            continue
+        if len(numbers_of(matrix)) != 16 or not context.wants(rules.MATRIX):
+            continue
+        rigid, exact = nearest_rotation(of_element(matrix))
+        made = place_elements(context, rigid)
+        if not made and local(parent) == "mass_frame":
+            made = [context.make("translate", "0 0 0")]
+        for offset, new in enumerate(made):
+            insert(parent, parent.index(matrix), new) if not offset else made[0].addnext(new)
+        message = f"<matrix> in <{local(parent)}> is now " + (
+            " and ".join(f"<{local(new)}>{new.text}" for new in made) or "nothing (identity)"
+        )
+        if exact:
+            context.note(rules.MATRIX, matrix, message)
+            remove(matrix)
+        else:
+            context.note(rules.MATRIX, matrix, message + "; its scale or skew is lost")
+            context.stash(matrix)
+
+
+def diagonalise_inertia(context: Context) -> None:
+    """Inertia as a full matrix becomes its principal values and a turned mass_frame."""
+    for inertia in context.all("inertia"):
+        values = numbers_of(inertia)
+        if len(values) != 9 or not context.wants(rules.INERTIA):
+            continue
+        tensor = np.asarray(values).reshape(3, 3)
+        if not np.all(np.isfinite(tensor)):
+            continue
+        before = " ".join((inertia.text or "").split())
+        if np.count_nonzero(tensor - np.diag(np.diag(tensor))) == 0:
+            principal = np.diag(tensor)
+        else:
+            principal, axes = np.linalg.eigh((tensor + tensor.T) / 2)
+            turn = np.eye(4)
+            turn[:3, :3] = axes if np.linalg.det(axes) > 0 else axes * (1, 1, -1)
+            _turn_mass_frame(context, inertia, turn)
+        inertia.text = " ".join(_number(value) for value in principal)
+        message = f"inertia was the matrix {before}, is now {inertia.text} in a turned mass_frame"
+        context.note(rules.INERTIA, inertia, message)
+
+
+def _turn_mass_frame(context: Context, inertia: etree._Element, turn: np.ndarray) -> None:
+    body = inertia.getparent()
+    assert body is not None
+    frame = body.find(NS + "mass_frame")
+    if frame is None:
+        frame = context.make("mass_frame")
+        insert(body, body.index(inertia), frame)
+    for element in place_elements(context, turn):
+        append(frame, element)
+
+
+def give_shapes(context: Context) -> None:
+    """A body without a shape gets the geometry of its visual node, or a shape without extent.
+
+    Both are marked as assumed: a shape without extent only makes the document valid, and readers
+    are to take the body for one without a shape.
+    """
+    targets = _targets(context)
+    linked = set(targets.values())
+    for body in context.all("rigid_body"):
+        common = body.find(NS + "technique_common")
+        shapes = [] if common is None else list(common.iterchildren(NS + "shape"))
+        if any(_has_geometry(shape) for shape in shapes) or not context.wants(rules.MISSING_SHAPE):
+            continue
+        if common is None:
+            common = context.make("technique_common")
+            insert(body, 0, common)
+        node = targets.get(body)
+        found = [] if node is None else _visuals(context, node, linked)
+        for shape in shapes:
+            if len(shape) or (shape.text or "").strip():
+                context.stash(shape)
+            else:
+                remove(shape)
+        if found and node is not None:
+            for url, matrix in found:
+                append(common, _assumed(context, url, matrix))
+            urls = ", ".join(url for url, _ in found)
+            message = (
+                f"rigid_body {body.get('sid')!r} had no shape; the geometry of its node "
+                f"#{node.get('id')} is assumed to be its shape: {urls}"
+            )
+        else:
+            append(common, _assumed(context, None, np.eye(4)))
+            message = (
+                f"rigid_body {body.get('sid')!r} had no shape and its node shows no geometry; "
+                "a sphere of radius 0, marked as assumed, stands for it"
+            )
+        context.note(rules.MISSING_SHAPE, body, message)
+
+
+def _has_geometry(shape: etree._Element) -> bool:
+    return any(local(child) in GEOMETRIES for child in shape)
+
+
+def _assumed(context: Context, url: str | None, matrix: np.ndarray) -> etree._Element:
+    shape = context.make("shape")
+    if url is None:
+        sphere = context.make("sphere")
+        sphere.append(context.make("radius", "0"))
+        shape.append(sphere)
+    else:
+        shape.append(context.make("instance_geometry", url=url))
+        shape.extend(place_elements(context, matrix))
+    extra, technique = context.make("extra"), context.make("technique", profile="colladaphy")
+    assumed = etree.SubElement(technique, f"{{{CONFORM}}}assumed", nsmap=OWN_MAP)
+    assumed.set("from", "nothing" if url is None else "visual")
+    extra.append(technique)
+    shape.append(extra)
+    return shape
+
+
+def _targets(context: Context) -> dict[etree._Element, etree._Element]:
+    """The node that the first instance of every body targets."""
+    found: dict[etree._Element, etree._Element] = {}
+    bodies: dict[etree._Element, dict[str, etree._Element]] = {}
+    for instance in context.all("instance_physics_model"):
+        model = context.by_url(instance.get("url"))
+        if model is None:
+            continue
+        if model not in bodies:
+            bodies[model] = {b.get("sid", ""): b for b in model.iterchildren(NS + "rigid_body")}
+        for user in instance.iterchildren(NS + "instance_rigid_body"):
+            body = bodies[model].get(user.get("body", ""))
+            node = context.by_url(user.get("target"))
+            if body is not None and node is not None and local(node) == "node":
+                found.setdefault(body, node)
+    return found
+
+
+def _visuals(
+    context: Context, node: etree._Element, linked: set[etree._Element]
+) -> list[tuple[str, np.ndarray]]:
+    """Geometries shown below a node, and where; nodes of other bodies are theirs."""
+    found: list[tuple[str, np.ndarray]] = []
+    stack = [(node, np.eye(4))]
+    while stack:
+        current, place = stack.pop()
+        for instance in current.iterchildren(NS + "instance_geometry"):
+            geometry = context.by_url(instance.get("url"))
+            rigid, exact = nearest_rotation(place)
+            if geometry is not None and exact and _is_solid(geometry):
+                found.append((instance.get("url", ""), rigid))
+        below = [child for child in current.iterchildren(NS + "node") if child not in linked]
+        stack.extend((child, place @ _matrix_of(child)) for child in reversed(below))
+    return found
+
+
+def _matrix_of(node: etree._Element) -> np.ndarray:
+    try:
+        return transform_of(node)
+    except ValueError:
+        return np.full((4, 4), np.nan)  # a malformed transform: nothing can be said of it
+
+
+def _is_solid(geometry: etree._Element) -> bool:
+    mesh = next(geometry.iterchildren(NS + "mesh", NS + "convex_mesh"), None)
+    if mesh is None:
+        return False
+    return mesh.get("convex_hull_of") is not None or any(local(c) in _MESHES for c in mesh)
