@@ -1,0 +1,43 @@
+"""Documents over the whole COLLADA 1.5 schema, for property-based tests of whatever reads them.
+
+    from hypothesis import given
+    from colladaphy.testing import documents, mutants
+
+    @given(documents())                      # schema-valid, any area of the schema
+    def test_reader(document: bytes) -> None: ...
+
+    @given(documents(areas=["physics"]))     # only what physics and what it builds on declare
+    def test_physics_reader(document: bytes) -> None: ...
+
+    @given(mutants())                        # a few changes away from valid, mostly invalid
+    def test_reader_survives(document: bytes) -> None: ...
+
+`covering_documents()` is a fixed series of small valid documents that together hold every element
+declaration and every attribute of the schema; `Coverage` records which of them documents hold.
+
+Needs hypothesis: ``pip install colladaphy[testing]``.
+"""
+
+try:
+    import hypothesis as _hypothesis
+except ImportError as error:  # say what to install, not only what is missing
+    raise ImportError(
+        "colladaphy.testing needs hypothesis: pip install 'colladaphy[testing]'"
+    ) from error
+
+from colladaphy.testing.coverage import Component, Coverage
+from colladaphy.testing.covering import covering_documents
+from colladaphy.testing.documents import AREAS, documents
+from colladaphy.testing.mutations import MUTATIONS, mutants
+
+del _hypothesis
+
+__all__ = [
+    "AREAS",
+    "MUTATIONS",
+    "Component",
+    "Coverage",
+    "covering_documents",
+    "documents",
+    "mutants",
+]
