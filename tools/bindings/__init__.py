@@ -1,0 +1,1 @@
+"""Generates `generated/colladaphy_schema`: dataclasses and codecs from the schema files."""
