@@ -1,0 +1,164 @@
+"""Stage link: does every reference of a valid document lead where it should?"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+from lxml import etree
+
+from colladaphy.document import rules
+from colladaphy.errors import ColladaError
+from colladaphy.findings import Finding, Severity
+from colladaphy.source import COLLADA_1_5
+from colladaphy.source import rules as source_rules
+
+if TYPE_CHECKING:
+    from colladaphy.document import Document
+
+__all__ = ["check_links"]
+
+_NS = f"{{{COLLADA_1_5}}}"
+
+# What a reference must lead to, by the element and the attribute that holds it. An instance_*
+# element refers to the element that its name says, unless it is listed here.
+_EXPECTED: dict[tuple[str, str], tuple[str, ...]] = {
+    ("instance_rigid_body", "target"): ("node",),
+    ("instance_physics_model", "parent"): ("node",),
+    ("instance_material", "target"): ("material",),
+    ("convex_mesh", "convex_hull_of"): ("geometry",),
+    ("attachment", "rigid_body"): ("rigid_body", "node", "instance_rigid_body"),
+    ("ref_attachment", "rigid_body"): ("rigid_body", "node", "instance_rigid_body"),
+    ("skin", "source"): ("geometry",),
+    ("morph", "source"): ("geometry",),
+    ("input", "source"): ("source", "vertices"),
+    ("channel", "source"): ("sampler",),
+}
+_INSTANCES = (
+    "animation",
+    "articulated_system",
+    "camera",
+    "controller",
+    "effect",
+    "force_field",
+    "formula",
+    "geometry",
+    "joint",
+    "kinematics_model",
+    "kinematics_scene",
+    "light",
+    "node",
+    "physics_material",
+    "physics_model",
+    "physics_scene",
+    "visual_scene",
+)
+_EXPECTED |= {(f"instance_{name}", "url"): (name,) for name in _INSTANCES}
+# References whose attributes name a part of the physics model that the parent instances.
+_PARTS = {
+    ("instance_rigid_body", "body"): "rigid_body",
+    ("instance_rigid_constraint", "constraint"): "rigid_constraint",
+}
+_WORLD = ("attachment", "ref_attachment")
+
+
+def check_links(document: Document) -> list[Finding]:
+    """Findings for every reference that leads nowhere, or to an element of the wrong kind."""
+    findings: list[Finding] = []
+    parts = _Parts(document)
+    for element, attribute, expected in _references(document.tree):
+        reference = element.get(attribute, "")
+        if not reference.strip() and element.tag.rpartition("}")[2] in _WORLD:
+            continue  # the world itself
+        if not reference.strip():
+            message = f"The attribute {attribute!r} is empty, so it refers to nothing."
+            findings.append(rules.MISSING.at(element, message))
+            continue
+        try:
+            document.resolve(reference, element, expected)
+        except ColladaError as error:
+            findings.extend(_placed(finding, element) for finding in error.findings)
+    for (name, attribute), kind in _PARTS.items():
+        for element in document.tree.iter(_NS + name):
+            findings.extend(parts.check(element, attribute, kind))
+    findings.sort(key=lambda finding: (finding.line or 0, finding.path or "", finding.code))
+    return list(dict.fromkeys(findings))
+
+
+def _references(
+    tree: etree._ElementTree,
+) -> Iterator[tuple[etree._Element, str, tuple[str, ...]]]:
+    """References in the document's own content; what a technique holds is its own affair."""
+    by_name: dict[str, list[tuple[str, tuple[str, ...]]]] = {}
+    for (name, attribute), expected in _EXPECTED.items():
+        by_name.setdefault(_NS + name, []).append((attribute, expected))
+    for element in tree.iter(*by_name):
+        for attribute, expected in by_name[str(element.tag)]:
+            if element.get(attribute) is not None and not _in_technique(element):
+                yield element, attribute, expected
+
+
+def _in_technique(element: etree._Element) -> bool:
+    """Whether the element is foreign content; effect profiles have techniques of another kind."""
+    for technique in element.iterancestors(_NS + "technique"):
+        if technique.get("profile") is not None:
+            return True
+    return False
+
+
+def _placed(finding: Finding, element: etree._Element) -> Finding:
+    """A finding about another file gets the place of the reference that led there."""
+    if finding.code == source_rules.REFERENCE_REFUSED.code:  # not wrong, but cannot be checked
+        return source_rules.REFERENCE_REFUSED.at(
+            element, finding.message, severity=Severity.WARNING, hint=finding.hint
+        )
+    if finding.code == source_rules.REFERENCE_MISSING.code:
+        return source_rules.REFERENCE_MISSING.at(element, finding.message, hint=finding.hint)
+    return finding
+
+
+class _Parts:
+    """Sids of rigid bodies and constraints, by the physics model that an instance refers to."""
+
+    def __init__(self, document: Document) -> None:
+        self._document = document
+        self._sids: dict[tuple[etree._Element, str], frozenset[str]] = {}
+
+    def check(self, element: etree._Element, attribute: str, kind: str) -> list[Finding]:
+        """A finding where the instanced model has no part of that sid."""
+        sid = element.get(attribute)
+        instance = element.getparent()
+        if sid is None or instance is None or _in_technique(element):
+            return []
+        try:
+            model = self._document.resolve(instance.get("url", ""), instance, "physics_model")
+        except ColladaError:
+            return []  # reported at the instance
+        if sid.rpartition("/")[2] in self._all(model.document, model.element, kind, ()):
+            return []
+        message = f"The physics model {instance.get('url')!r} has no <{kind}> of sid {sid!r}."
+        return [rules.MISSING.at(element, message)]
+
+    def _all(
+        self,
+        document: Document,
+        model: etree._Element,
+        kind: str,
+        above: tuple[etree._Element, ...],
+    ) -> frozenset[str]:
+        """Sids in the model and in the models that it instances."""
+        known = self._sids.get((model, kind))
+        if known is not None:
+            return known
+        sids = {part.get("sid", "") for part in model.iterchildren(_NS + kind)}
+        for inner in model.iterchildren(_NS + "instance_physics_model"):
+            try:
+                target = document.resolve(inner.get("url", ""), inner, "physics_model")
+            except ColladaError:
+                continue
+            if target.element is not model and target.element not in above:
+                sids |= self._all(target.document, target.element, kind, (*above, model))
+        found = frozenset(sids)
+        if not above:
+            self._sids[(model, kind)] = found
+        return found

@@ -1,0 +1,156 @@
+"""Validation reports everything about bad content, and raises only where nothing can be read."""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+
+import pytest
+
+import colladaphy
+from colladaphy import Limits, validate
+from colladaphy.errors import InputError
+from colladaphy.source import pack
+from colladaphy.validation.reporters import as_json, as_text
+
+VALID = b"""<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2008/03/COLLADASchema" version="1.5.0">
+  <asset><created>2010-01-01T00:00:00Z</created><modified>2010-01-01T00:00:00Z</modified></asset>
+  <library_physics_models>
+    <physics_model id="model">
+      <rigid_body sid="ball"><technique_common>
+        <shape><sphere><radius>1</radius></sphere></shape>
+      </technique_common></rigid_body>
+      <rigid_constraint sid="joint">
+        <ref_attachment rigid_body="model/ball"/><attachment rigid_body=""/>
+        <technique_common/>
+      </rigid_constraint>
+    </physics_model>
+  </library_physics_models>
+  <library_physics_scenes>
+    <physics_scene id="scene">
+      <instance_physics_model url="#model" parent="#node">
+        <instance_rigid_body body="ball" target="#node"><technique_common/></instance_rigid_body>
+        <instance_rigid_constraint constraint="joint"/>
+      </instance_physics_model>
+      <technique_common/>
+    </physics_scene>
+  </library_physics_scenes>
+  <library_visual_scenes><visual_scene id="view"><node id="node"/></visual_scene>
+  </library_visual_scenes>
+  <scene><instance_physics_scene url="#scene"/><instance_visual_scene url="#view"/></scene>
+</COLLADA>
+"""
+
+
+def codes(data: bytes) -> list[str]:
+    return [finding.code for finding in validate(data)]
+
+
+def test_a_valid_document() -> None:
+    assert [str(finding) for finding in validate(VALID)] == []
+    assert validate(VALID).valid
+    assert validate(io.BytesIO(VALID)).valid
+    assert validate(pack(VALID)).valid
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code", "words"),
+    [
+        (b'url="#model"', b'url="#none"', "link-missing", "none"),
+        (b'url="#model"', b'url="#node"', "link-wrong-type", "<node>"),
+        (b'parent="#node"', b'parent="#none"', "link-missing", "none"),
+        (b'target="#node"', b'target="#model"', "link-wrong-type", "<physics_model>"),
+        (b'target="#node"', b'target=""', "link-missing", "empty"),
+        (b'body="ball"', b'body="none"', "link-missing", "none"),
+        (b'constraint="joint"', b'constraint="ball"', "link-missing", "rigid_constraint"),
+        (b'rigid_body="model/ball"', b'rigid_body="model/none"', "link-missing", "none"),
+        (b'rigid_body="model/ball"', b'rigid_body="#model"', "link-wrong-type", "model"),
+        (b'url="#scene"', b'url="#none"', "link-missing", "none"),
+        (b'<node id="node"/>', b'<node id="node"/><node id="node"/>', "schema-duplicate-id", ""),
+        (b"<radius>1<", b"<radius>x<", "schema-invalid-value", "radius"),
+        (b"</COLLADA>", b"", "xml-truncated", ""),
+        (b"2008/03", b"2005/11", "schema-version-1-4", "1.4"),
+    ],
+)
+def test_what_is_wrong_is_found(old: bytes, new: bytes, code: str, words: str) -> None:
+    assert old in VALID
+    report = validate(VALID.replace(old, new))
+    assert {finding.code for finding in report.errors} == {code}
+    assert words in report.errors[0].message
+    assert not report.valid
+
+
+def test_references_in_techniques_are_left_alone() -> None:
+    extra = (
+        b'<extra><technique profile="X"><instance_geometry url="#none"/></technique></extra>'
+        b"</COLLADA>"
+    )
+    assert codes(VALID.replace(b"</COLLADA>", extra)) == []
+
+
+def test_references_to_other_files(tmp_path: Path) -> None:
+    (tmp_path / "other.dae").write_bytes(VALID)
+    path = tmp_path / "main.dae"
+
+    def errors(reference: bytes) -> list[str]:
+        path.write_bytes(VALID.replace(b'url="#model"', b'url="' + reference + b'"'))
+        return [finding.code for finding in validate(path).errors]
+
+    assert errors(b"other.dae#model") == []
+    assert errors(b"other.dae#none") == ["link-missing"]
+    assert errors(b"none.dae#model") == ["io-reference-missing"]
+    assert errors(b"http://example.org/other.dae#model") == []
+    (finding,) = validate(path).findings
+    assert finding.code == "io-reference-refused" and finding.line
+
+
+def test_only_unreadable_input_raises(tmp_path: Path) -> None:
+    for source in (tmp_path, tmp_path / "none.dae", io.StringIO("text")):
+        with pytest.raises(InputError):
+            validate(source)  # type: ignore[arg-type]
+    assert codes(b"") == ["xml-empty"]
+    assert codes(b"PK\x03\x04") == ["io-archive-broken"]
+    report = validate(VALID, limits=Limits(bytes=10))
+    assert [finding.code for finding in report] == ["io-too-large"]
+
+
+def test_the_json_report() -> None:
+    data = json.loads(as_json([validate(VALID.replace(b"<radius>1<", b"<radius>\xc3\xa4<"))]))
+    (file,) = data["files"]
+    assert list(file) == ["path", "valid", "counts", "findings"]
+    assert file["valid"] is False
+    assert file["counts"] == {"error": 1, "warning": 0, "info": 0, "hint": 0}
+    (finding,) = file["findings"]
+    assert list(finding) == [
+        "code", "severity", "stage", "message", "line", "column", "path", "hint",
+    ]  # fmt: skip
+    assert (finding["code"], finding["severity"], finding["stage"], finding["line"]) == (
+        "schema-invalid-value",
+        "error",
+        "schema",
+        7,
+    )
+    assert "ä" in finding["message"]
+
+
+def test_the_text_report_and_its_cap() -> None:
+    broken = VALID.replace(b"<node ", b'<node x="1" ').replace(
+        b'<node x="1" id="node"/>', b'<node x="1" id="node"/>' + b'<node x="1"/>' * 9
+    )
+    report = validate(broken)
+    lines = list(as_text(report))
+    assert lines[-1] == "document: not valid (10 errors)"
+    assert sum("schema-unknown-attribute" in line for line in lines) == 10
+    short = list(as_text(report, most=3))
+    assert sum("error: " in line for line in short) == 3
+    assert "... and 7 more of schema-unknown-attribute" in short
+
+
+def test_the_corpus_is_reported_without_errors_of_ours(corpus_dir: Path) -> None:
+    for path in sorted(corpus_dir.glob("*.dae")):
+        report = colladaphy.validate(path)
+        assert report.errors, path.name
+        assert all(finding.file == str(path) for finding in report)
+        assert all(finding.hint for finding in report.errors)
