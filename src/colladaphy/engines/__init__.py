@@ -1,1 +1,36 @@
 """What runs a World in time: the protocol of engines, the engines, runs and checkpoints."""
+
+from colladaphy.engines.checkpoints import Checkpoints, read_checkpoint
+from colladaphy.engines.diagnostics import (
+    Summary,
+    angular_momentum,
+    kinetic_energy,
+    momentum,
+    potential_energy,
+)
+from colladaphy.engines.digest import digest
+from colladaphy.engines.observers import Observer, Trajectory
+from colladaphy.engines.protocol import Capabilities, Contact, Engine
+from colladaphy.engines.selection import ENGINES, choose, create_engine
+from colladaphy.engines.simulation import DEFAULT_TIME_STEP, Simulation
+
+__all__ = [
+    "DEFAULT_TIME_STEP",
+    "ENGINES",
+    "Capabilities",
+    "Checkpoints",
+    "Contact",
+    "Engine",
+    "Observer",
+    "Simulation",
+    "Summary",
+    "Trajectory",
+    "angular_momentum",
+    "choose",
+    "create_engine",
+    "digest",
+    "kinetic_energy",
+    "momentum",
+    "potential_energy",
+    "read_checkpoint",
+]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable
-from dataclasses import astuple, fields
+from dataclasses import astuple
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,15 +14,19 @@ if TYPE_CHECKING:
 
 __all__ = ["digest"]
 
+_MOTION = ("linear_velocities", "angular_velocities", "forces", "torques", "sleeping")
+_POSE = ("positions", "orientations")
 
-def digest(world: World) -> str:
+
+def digest(world: World, *, motion: bool = True) -> str:
     """The sha256, in hexadecimal digits, of the content of `world`.
 
-    Covers what `colladaphy.world.compare` compares, bit by bit, but neither the engine's own state
-    nor materials that nothing uses. Meshes count by their content, not by their ids.
+    Covers what `colladaphy.world.compare` compares, bit by bit, but not the engine's own state.
+    Without `motion`, what changes while a World runs is left out: the poses of bodies that are
+    not fixed, velocities, forces, sleep and clock.
     """
     total = hashlib.sha256()
-    for name, value in _parts(world):
+    for name, value in _parts(world, motion):
         if isinstance(value, np.ndarray):
             array = np.ascontiguousarray(value)
             little = array.astype(array.dtype.newbyteorder("<"), copy=False)
@@ -36,28 +40,42 @@ def digest(world: World) -> str:
     return total.hexdigest()
 
 
-def _parts(world: World) -> Iterable[tuple[str, Any]]:
+def _parts(world: World, motion: bool) -> Iterable[tuple[str, Any]]:
     yield "name", world.name
     yield "unit", (world.unit_name, world.unit_meter)
     yield "up_axis", world.up_axis
     yield "gravity", world.gravity
-    yield "clock", (world.time_step, world.time, world.step_count)
-    bodies, members = world.columns(), world.member_columns
-    for prefix, columns in (("body", bodies), ("member", members)):
-        for field in fields(columns):
-            value = getattr(columns, field.name)
-            if isinstance(value, np.ndarray) and field.name != "mesh_ids":
-                yield f"{prefix}.{field.name}", value
-    mesh_ids = np.concatenate([np.asarray(bodies.mesh_ids), np.asarray(members.mesh_ids)])
-    used, order = np.unique(mesh_ids, return_inverse=True)
-    contents = [_mesh(world, int(id)) for id in used]
-    yield "meshes", [contents[index] for index in order.tolist()]
+    yield "time_step", world.time_step
+    if motion:
+        yield "clock", (world.time, world.step_count)
+        yield "counters", (world.next_body_sid, world.next_joint_sid)
+    still = np.asarray(world.fixed)
+    for prefix, columns in (("body", world.columns()), ("member", world.member_columns)):
+        for name in sorted(columns.__slots__):
+            value = getattr(columns, name)
+            if not isinstance(value, np.ndarray) or name == "mesh_ids":
+                continue
+            if prefix == "body" and not motion:
+                if name in _MOTION:
+                    continue
+                if name in _POSE:
+                    value = value[still]
+            yield f"{prefix}.{name}", value
+    yield "meshes", _meshes(world)
     yield "names", sorted(world.names.items())
     yield "children", sorted(world.children.items())
     for name, column in sorted(world.joints.columns().items()):
         yield f"joint.{name}", column
-    yield "joint names", sorted(world.joints.names.items())
+    yield "joint names", sorted(world.joint_names.items())
     yield from _materials(world)
+
+
+def _meshes(world: World) -> list[str | None]:
+    """The content of the meshes, for each body and member: their ids mean nothing."""
+    ids = np.concatenate([world.mesh_ids, world.member_columns.mesh_ids])
+    used, order = np.unique(ids, return_inverse=True)
+    contents = [_mesh(world, id) for id in used.tolist()]
+    return [contents[index] for index in order.tolist()]
 
 
 def _mesh(world: World, id: int) -> str | None:
@@ -71,9 +89,8 @@ def _mesh(world: World, id: int) -> str | None:
 
 
 def _materials(world: World) -> Iterable[tuple[str, Any]]:
-    overrides = world.pair_overrides
-    ids = {id for override in overrides for id in (override.first, override.second)}
-    for columns in (world.columns(), world.member_columns):
-        ids.update(np.unique(np.asarray(columns.material_ids)).tolist())
-    yield "materials", [astuple(world.materials[id]) for id in sorted(ids) if id >= 0]
-    yield "pairs", [astuple(override) for override in overrides]
+    """The materials that are used, and their pairs: a file keeps no others (thesis 5.4)."""
+    used = np.union1d(world.material_ids, world.member_columns.material_ids).tolist()
+    yield "materials", [astuple(world.materials[id]) for id in used if id >= 0]
+    pairs = [pair for pair in world.pair_overrides if pair.first in used and pair.second in used]
+    yield "pairs", [astuple(pair) for pair in pairs]

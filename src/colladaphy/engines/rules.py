@@ -67,10 +67,21 @@ MASS = Rule(
 )
 INERTIA_TRIANGLE = Rule(
     "engine-inertia-triangle",
-    Severity.WARNING,
+    Severity.ERROR,
     "No rigid body can have this inertia: one principal moment is larger than the other two "
     "together.",
-    "The engine runs it as given; check the inertia tensor.",
+    "Correct the inertia, or leave it out to have it computed from the shapes.",
+)
+SHAPE_APPROXIMATED = Rule(
+    "engine-shape-approximated",
+    Severity.WARNING,
+    "The engine takes a convex polyhedron for a shape that it does not know.",
+)
+MESH_HULL = Rule(
+    "engine-mesh-hull",
+    Severity.WARNING,
+    "The mesh is not convex: the engine lets its convex hull collide.",
+    "Make a union of convex parts to keep the hollows.",
 )
 MOVING_PLANE = Rule(
     "engine-moving-plane",
@@ -98,10 +109,47 @@ JOINT_APPROXIMATED = Rule(
     None,
     "COLLADA 1.5 §rigid_constraint",
 )
+JOINT_DISPLACED = Rule(
+    "engine-joint-displaced",
+    Severity.WARNING,
+    "The two bodies of a joint are not where the joint holds them.",
+    "The engine puts them there before the first step; check the frames of the joint.",
+    "COLLADA 1.5 §rigid_constraint",
+)
+JOINT_LOOP = Rule(
+    "engine-joint-loop",
+    Severity.ERROR,
+    "The joint closes a loop of joints, in which the engine cannot keep joints of this kind.",
+    "Close the loop with a fixed, ball or free hinge joint instead.",
+)
 JOINT_INERT = Rule(
     "engine-joint-inert",
     Severity.INFO,
     "A joint between bodies that cannot move has no effect.",
+)
+CHOSEN = Rule(
+    "engine-chosen",
+    Severity.INFO,
+    "The engine was chosen by the scene.",
+    "Name an engine to choose it yourself.",
+)
+NO_ENGINE = Rule(
+    "engine-none",
+    Severity.ERROR,
+    "No engine that is installed can run this scene: it is not planar, and MuJoCo is missing.",
+    "Install it: pip install 'colladaphy[mujoco]'.",
+)
+LIBRARY = Rule(
+    "engine-library",
+    Severity.ERROR,
+    "The library under the engine refuses the scene.",
+)
+FRICTION_SHARED = Rule(
+    "engine-friction-shared",
+    Severity.WARNING,
+    "Too many pairs of shapes have a friction of their own; the larger of the two materials' "
+    "own frictions is taken.",
+    "Use fewer materials, or the same friction for all.",
 )
 STATE_ENGINE = Rule(
     "engine-state-engine",
@@ -146,6 +194,12 @@ CHECKPOINT_STATELESS = Rule(
     "The file is a scene, but no checkpoint: it holds no state of an engine.",
     "Start from it without --resume.",
 )
+CHECKPOINT_OTHER_RUN = Rule(
+    "engine-checkpoint-other-run",
+    Severity.ERROR,
+    "The folder holds the checkpoints of a run already.",
+    "Go on with that run (--resume), or name another folder.",
+)
 STEPS = Rule(
     "engine-steps",
     Severity.ERROR,
@@ -164,11 +218,19 @@ RULES = (
     FRICTIONS,
     MASS,
     INERTIA_TRIANGLE,
+    SHAPE_APPROXIMATED,
+    MESH_HULL,
     MOVING_PLANE,
     SIZE,
     JOINT_LIMITS,
     JOINT_APPROXIMATED,
+    JOINT_DISPLACED,
+    JOINT_LOOP,
     JOINT_INERT,
+    CHOSEN,
+    NO_ENGINE,
+    LIBRARY,
+    FRICTION_SHARED,
     STATE_ENGINE,
     STATE_VERSION,
     STATE_STALE,
@@ -176,6 +238,7 @@ RULES = (
     CHECKPOINT_BROKEN,
     CHECKPOINT_NONE,
     CHECKPOINT_STATELESS,
+    CHECKPOINT_OTHER_RUN,
     STEPS,
 )
 

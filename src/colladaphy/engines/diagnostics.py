@@ -1,0 +1,141 @@
+"""Energy and momentum of a World, for all bodies that move; in units of kg, s and the World's."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.world import rotations
+
+if TYPE_CHECKING:
+    from colladaphy.world import Joint, World
+
+__all__ = [
+    "Summary",
+    "angular_momentum",
+    "kinetic_energy",
+    "momentum",
+    "potential_energy",
+    "spring_energy",
+    "summarise",
+]
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """How a World is at one moment."""
+
+    engine: str
+    time: float
+    step_count: int
+    bodies: int
+    """Top-level bodies that can move."""
+    sleeping: int
+    contacts: int
+    kinetic_energy: float
+    potential_energy: float
+    """Of gravity, zero at the origin, and of the springs of joints."""
+    momentum: tuple[float, ...]
+    angular_momentum: tuple[float, ...]
+    """About the origin."""
+
+    @property
+    def energy(self) -> float:
+        """Kinetic and potential energy together."""
+        return self.kinetic_energy + self.potential_energy
+
+
+def _spin(world: World, moving: NDArray[Any]) -> tuple[Floats, Floats]:
+    """Angular velocities and angular momenta (n, 3) about the bodies' own centres."""
+    angular = world.angular_velocities[moving]
+    turn = world.orientations[moving]
+    local = rotations.unrotate(turn, angular)
+    inertias = np.asarray(world.inertias[moving])
+    return angular, rotations.rotate(turn, np.einsum("nij,nj->ni", inertias, local))
+
+
+def kinetic_energy(world: World) -> float:
+    """½ Σ m·v² + ω·I·ω over the bodies that can move."""
+    moving = ~world.fixed
+    linear = world.linear_velocities[moving]
+    angular, spin = _spin(world, moving)
+    straight = float(world.masses[moving] @ np.einsum("ni,ni->n", linear, linear))
+    return 0.5 * (straight + float(np.sum(angular * spin)))
+
+
+def potential_energy(world: World) -> float:
+    """−Σ m·g·x over the bodies that can move, and the energy of springs."""
+    moving = ~world.fixed
+    height = world.positions[moving] @ world.gravity
+    return spring_energy(world) - float(world.masses[moving] @ height)
+
+
+def momentum(world: World) -> Floats:
+    """Σ m·v (3,) over the bodies that can move."""
+    moving = ~world.fixed
+    return np.asarray(world.masses[moving] @ world.linear_velocities[moving])
+
+
+def angular_momentum(world: World) -> Floats:
+    """Σ x × m·v + I·ω (3,) about the origin, over the bodies that can move."""
+    moving = ~world.fixed
+    straight = world.masses[moving, None] * world.linear_velocities[moving]
+    orbital = np.cross(world.positions[moving], straight)
+    return np.asarray((orbital + _spin(world, moving)[1]).sum(axis=0))
+
+
+def spring_energy(world: World) -> float:
+    """½ Σ k·(q − target)² over the free axes of the joints that are enabled and have springs."""
+    return sum(
+        _spring_energy(joint)
+        for joint in world.joints
+        if joint.enabled and (joint.linear_spring[0] or joint.angular_spring[0])
+    )
+
+
+def _spring_energy(joint: Joint) -> float:
+    shift, turn = joint_coordinates(joint)
+    total = 0.0
+    for values, low, high, spring in (
+        (shift, joint.linear_min, joint.linear_max, joint.linear_spring),
+        (turn, joint.angular_min, joint.angular_max, joint.angular_spring),
+    ):
+        free = low != high
+        total += 0.5 * spring[0] * float(np.sum((values[free] - spring[2]) ** 2))
+    return total
+
+
+def joint_coordinates(joint: Joint) -> tuple[Floats, Floats]:
+    """Displacement (3,) along and rotation vector (3,) about the axes of frame 1."""
+    poses = []
+    for body, frame in ((joint.body1, joint.frame1), (joint.body2, joint.frame2)):
+        origin = np.zeros(3) if body is None else body.position
+        turn = np.array(rotations.IDENTITY) if body is None else body.orientation
+        point = origin + rotations.rotate(turn, frame[0])
+        poses.append((point, rotations.multiply(turn, frame[1])))
+    (origin1, turn1), (origin2, turn2) = poses
+    shift = rotations.unrotate(turn1, origin2 - origin1)
+    axis, angle = rotations.to_axis_angle(rotations.multiply(rotations.conjugate(turn1), turn2))
+    return shift, axis * angle
+
+
+def summarise(world: World, engine: str, contacts: int) -> Summary:
+    """The summary of `world` as `engine` left it with so many contacts."""
+    moving = ~world.fixed
+    return Summary(
+        engine=engine,
+        time=world.time,
+        step_count=world.step_count,
+        bodies=int(moving.sum()),
+        sleeping=int((world.sleeping & moving).sum()),
+        contacts=contacts,
+        kinetic_energy=kinetic_energy(world),
+        potential_energy=potential_energy(world),
+        momentum=tuple(momentum(world).tolist()),
+        angular_momentum=tuple(angular_momentum(world).tolist()),
+    )

@@ -1,0 +1,224 @@
+"""A run of a World by an engine, which can be stopped and resumed at the same bit."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Self
+
+from colladaphy.engines.checkpoints import Checkpoints, read_checkpoint
+from colladaphy.engines.diagnostics import Summary, summarise
+from colladaphy.engines.digest import digest
+from colladaphy.engines.rules import SEED_UNUSED, STEPS, TIME_STEP_DEFAULT, refuse
+from colladaphy.engines.selection import ENGINES, choose, create_engine
+from colladaphy.engines.state import recorded_digest, unpack
+from colladaphy.errors import EngineError
+from colladaphy.findings import Report, Severity
+
+if TYPE_CHECKING:
+    from colladaphy.engines.observers import Observer
+    from colladaphy.engines.protocol import Contact, Engine
+    from colladaphy.world import World
+
+__all__ = ["DEFAULT_TIME_STEP", "Simulation"]
+
+DEFAULT_TIME_STEP = 1.0 / 240.0
+_BREATH = 0.05  # seconds between two looks at whether to stop
+
+
+class Simulation:
+    """Runs `world`, in place, with an engine.
+
+    `engine` is a name, "auto" (pymunk for planar scenes, else MuJoCo) or an `Engine`. `dt` is the
+    time step; without it the World's own, or 1/240. Raises EngineError, with every reason, where
+    the World cannot be run; what is dropped, approximated or assumed is in `report`.
+
+    Edits of the World between two runs are taken up by the next one.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        engine: str | Engine = "auto",
+        dt: float | None = None,
+        seed: int | None = None,
+    ) -> None:
+        self.world = world
+        self.seed = seed
+        self.report = Report()
+        if dt is not None:
+            world.time_step = float(dt)
+        elif world.time_step is None:
+            world.time_step = DEFAULT_TIME_STEP
+            self.report.add(TIME_STEP_DEFAULT.at())
+        if engine == "auto":
+            self.engine, findings = choose(world)
+        else:
+            self.engine = create_engine(engine) if isinstance(engine, str) else engine
+            findings = self.engine.check(world)
+        self.report.extend(findings)
+        if self.report.errors:
+            raise EngineError(self.report.errors)
+        if seed is not None and not self.engine.capabilities.random:
+            self.report.add(SEED_UNUSED.at())
+        self.report.extend(unpack(world, self.engine.name, self.engine.version).findings)
+        self._seen = ""  # the digest of the World that the engine has
+        self._load()
+
+    @classmethod
+    def resume(
+        cls,
+        source: str | os.PathLike[str],
+        engine: str | Engine = "auto",
+        dt: float | None = None,
+        seed: int | None = None,
+    ) -> Self:
+        """Go on from a checkpoint, or from the newest one that is whole in a folder.
+
+        "auto" is the engine that wrote it. The same engine in the same version goes on to the
+        last bit; another one goes on from the World, with a finding. EngineError if there is no
+        checkpoint that is whole; those that are not are in the report.
+        """
+        if Path(source).is_dir():
+            found = Checkpoints(source).newest()
+            world, passed = found.world, found.findings
+        else:
+            world, passed = read_checkpoint(source), ()
+        if engine == "auto" and world.engine_state is not None:
+            writer = world.engine_state.engine
+            engine = writer if writer in ENGINES else "auto"
+        run = cls(world, engine, dt, seed)
+        run.report.findings[:0] = passed
+        return run
+
+    def run(
+        self,
+        steps: int,
+        *,
+        observers: Sequence[Observer] = (),
+        every: int = 1,
+        checkpoints: Checkpoints | None = None,
+        checkpoint_every: int = 0,
+        stop: Callable[[], bool] | None = None,
+        progress: Callable[[int], None] | None = None,
+    ) -> Summary:
+        """Advance `steps` steps, or until `stop` says so, and bring the World up to date.
+
+        Observers are called at the start and then whenever the World's `step_count` is a multiple
+        of `every`; checkpoints are written whenever it is a multiple of `checkpoint_every`, which
+        makes a resumed run write the same ones. `progress` gets the number of steps done, several
+        times a second. Raises EngineError when the run diverges: the World is then as it was at
+        the last observation or checkpoint, or at the start.
+        """
+        if steps < 0 or every < 1 or checkpoint_every < 0:
+            message = f"Asked for {steps} steps, an interval of {every} and {checkpoint_every}."
+            raise refuse(STEPS, message)
+        self._take_up_edits()
+        intervals = [checkpoint_every] if checkpoints and checkpoint_every else []
+        if observers:
+            intervals.append(every)
+            _notify(observers, self.world)
+        pace = _Pace()
+        start = count = self.world.step_count
+        stale = False
+        while count < start + steps and not (stop and stop()):
+            chunk = min(start + steps - count, pace.chunk, *(i - count % i for i in intervals))
+            stale = True
+            self._step(chunk, pace)
+            count += chunk
+            if observers and count % every == 0:
+                self._store()
+                stale = False
+                _notify(observers, self.world)
+            if checkpoints and checkpoint_every and count % checkpoint_every == 0:
+                self._save(checkpoints)
+                stale = False
+            if progress:
+                progress(count - start)
+        if stale:
+            self._store()
+        return self.summary()
+
+    def checkpoint(self, target: str | os.PathLike[str] | Checkpoints) -> Path:
+        """Write a checkpoint to a file, or to the next place in a series; returns where.
+
+        The run itself goes on from what was written, so that it equals the run that is resumed.
+        It may differ in the last bits from a run without this checkpoint. Raises OutputError,
+        with what was in the file before untouched; the run can go on.
+        """
+        self._take_up_edits()
+        if isinstance(target, Checkpoints):
+            return self._save(target)
+        self._rebuild()
+        import colladaphy
+
+        colladaphy.write(self.world, target)
+        return Path(target)
+
+    def _save(self, checkpoints: Checkpoints) -> Path:
+        self._rebuild()
+        return checkpoints.save(self.world)
+
+    def _rebuild(self) -> None:
+        """Make the running engine the one that a resumed run begins with."""
+        self._store()
+        self._load()
+
+    def _load(self) -> None:
+        self._seen = ""
+        self.engine.load(self.world, seed=self.seed)
+        self._seen = digest(self.world)
+
+    def _store(self) -> None:
+        self.engine.store(self.world)
+        state = self.world.engine_state
+        self._seen = (recorded_digest(state) if state else None) or digest(self.world)
+
+    def _step(self, count: int, pace: _Pace) -> None:
+        seen, self._seen = self._seen, ""  # an engine that failed is loaded anew
+        with pace:
+            self.engine.step(count)
+        pace.done(count)
+        self._seen = seen
+
+    def _take_up_edits(self) -> None:
+        if self._seen == digest(self.world):
+            return
+        errors = [f for f in self.engine.check(self.world) if f.severity is Severity.ERROR]
+        if errors:
+            raise EngineError(errors)
+        self._load()
+
+    def contacts(self) -> list[Contact]:
+        """The contacts of the last step."""
+        return self.engine.contacts()
+
+    def summary(self) -> Summary:
+        """Energy, momentum and contacts as the World is now."""
+        return summarise(self.world, self.engine.name, len(self.contacts()))
+
+
+def _notify(observers: Sequence[Observer], world: World) -> None:
+    for observer in observers:
+        observer(world)
+
+
+class _Pace:
+    """How many steps go at once, so that stopping never waits long."""
+
+    def __init__(self) -> None:
+        self.chunk = 1
+        self._start = 0.0
+        self._spent = 0.0
+
+    def __enter__(self) -> None:
+        self._start = monotonic()
+
+    def __exit__(self, *_: object) -> None:
+        self._spent = monotonic() - self._start
+
+    def done(self, chunk: int) -> None:
+        per_step = self._spent / chunk
+        self.chunk = max(1, min(2 * self.chunk, int(_BREATH / max(per_step, 1e-9))))
