@@ -271,19 +271,6 @@ def encode_AnimationType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_AnimationType_choice = {
-    SamplerType: (encode_SamplerType, "sampler"),
-    ChannelType: (encode_ChannelType, "channel"),
-    AnimationType: (encode_AnimationType, "animation"),
-}
-TAGS_AnimationType_choice = {
-    ("core", "SourceType"): "source",
-    ("animation", "SamplerType"): "sampler",
-    ("animation", "ChannelType"): "channel",
-    ("animation", "AnimationType"): "animation",
-}
-
-
 def decode_LibraryAnimationClipsType(e):
     o = new(LibraryAnimationClipsType)
     v_asset = None
@@ -392,3 +379,16 @@ def encode_LibraryAnimationsType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_AnimationType_choice = {
+    SamplerType: (encode_SamplerType, "sampler"),
+    ChannelType: (encode_ChannelType, "channel"),
+    AnimationType: (encode_AnimationType, "animation"),
+}
+TAGS_AnimationType_choice = {
+    ("core", "SourceType"): "source",
+    ("animation", "SamplerType"): "sampler",
+    ("animation", "ChannelType"): "channel",
+    ("animation", "AnimationType"): "animation",
+}

@@ -1106,24 +1106,6 @@ def encode_CurveType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_CurveType_choice = {
-    LineType: (encode_LineType, "line"),
-    CircleType: (encode_CircleType, "circle"),
-    EllipseType: (encode_EllipseType, "ellipse"),
-    ParabolaType: (encode_ParabolaType, "parabola"),
-    HyperbolaType: (encode_HyperbolaType, "hyperbola"),
-    NurbsType: (encode_NurbsType, "nurbs"),
-}
-TAGS_CurveType_choice = {
-    ("brep", "LineType"): "line",
-    ("brep", "CircleType"): "circle",
-    ("brep", "EllipseType"): "ellipse",
-    ("brep", "ParabolaType"): "parabola",
-    ("brep", "HyperbolaType"): "hyperbola",
-    ("brep", "NurbsType"): "nurbs",
-}
-
-
 def decode_CurvesType(e):
     o = new(CurvesType)
     v_curve = []
@@ -1233,18 +1215,6 @@ def encode_SweptSurfaceType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_SweptSurfaceType_direction_or_origin_or_axis = {
-    Direction: (encode_Direction, "direction"),
-    Origin: (encode_Origin, "origin"),
-    Axis: (encode_Axis, "axis"),
-}
-TAGS_SweptSurfaceType_direction_or_origin_or_axis = {
-    ("brep", "Direction"): "direction",
-    ("brep", "Origin"): "origin",
-    ("brep", "Axis"): "axis",
-}
-
-
 def decode_SurfaceType(e):
     o = new(SurfaceType)
     v_choice = None
@@ -1314,24 +1284,6 @@ def encode_SurfaceType(o, w, tag, i):
     if x is not None:
         encode_OriginType(x, w, "origin", j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_SurfaceType_choice = {
-    TorusType: (encode_TorusType, "torus"),
-    SweptSurfaceType: (encode_SweptSurfaceType, "swept_surface"),
-    NurbsSurfaceType: (encode_NurbsSurfaceType, "nurbs_surface"),
-    ConeType: (encode_ConeType, "cone"),
-    SurfaceTypeCylinder: (encode_SurfaceTypeCylinder, "cylinder"),
-}
-TAGS_SurfaceType_choice = {
-    ("geometry", "PlaneType"): "plane",
-    ("geometry", "SphereType"): "sphere",
-    ("brep", "TorusType"): "torus",
-    ("brep", "SweptSurfaceType"): "swept_surface",
-    ("brep", "NurbsSurfaceType"): "nurbs_surface",
-    ("brep", "ConeType"): "cone",
-    ("brep", "SurfaceTypeCylinder"): "cylinder",
-}
 
 
 def decode_SurfacesType(e):
@@ -1462,3 +1414,51 @@ def encode_BrepType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_CurveType_choice = {
+    LineType: (encode_LineType, "line"),
+    CircleType: (encode_CircleType, "circle"),
+    EllipseType: (encode_EllipseType, "ellipse"),
+    ParabolaType: (encode_ParabolaType, "parabola"),
+    HyperbolaType: (encode_HyperbolaType, "hyperbola"),
+    NurbsType: (encode_NurbsType, "nurbs"),
+}
+TAGS_CurveType_choice = {
+    ("brep", "LineType"): "line",
+    ("brep", "CircleType"): "circle",
+    ("brep", "EllipseType"): "ellipse",
+    ("brep", "ParabolaType"): "parabola",
+    ("brep", "HyperbolaType"): "hyperbola",
+    ("brep", "NurbsType"): "nurbs",
+}
+
+
+ENCODERS_SweptSurfaceType_direction_or_origin_or_axis = {
+    Direction: (encode_Direction, "direction"),
+    Origin: (encode_Origin, "origin"),
+    Axis: (encode_Axis, "axis"),
+}
+TAGS_SweptSurfaceType_direction_or_origin_or_axis = {
+    ("brep", "Direction"): "direction",
+    ("brep", "Origin"): "origin",
+    ("brep", "Axis"): "axis",
+}
+
+
+ENCODERS_SurfaceType_choice = {
+    TorusType: (encode_TorusType, "torus"),
+    SweptSurfaceType: (encode_SweptSurfaceType, "swept_surface"),
+    NurbsSurfaceType: (encode_NurbsSurfaceType, "nurbs_surface"),
+    ConeType: (encode_ConeType, "cone"),
+    SurfaceTypeCylinder: (encode_SurfaceTypeCylinder, "cylinder"),
+}
+TAGS_SurfaceType_choice = {
+    ("geometry", "PlaneType"): "plane",
+    ("geometry", "SphereType"): "sphere",
+    ("brep", "TorusType"): "torus",
+    ("brep", "SweptSurfaceType"): "swept_surface",
+    ("brep", "NurbsSurfaceType"): "nurbs_surface",
+    ("brep", "ConeType"): "cone",
+    ("brep", "SurfaceTypeCylinder"): "cylinder",
+}

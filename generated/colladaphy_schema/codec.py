@@ -23,7 +23,7 @@ from colladaphy_schema.linking import decoder_of, encoder_of
 from colladaphy_schema.nodes import AnyElement, Comment, ProcessingInstruction
 
 if TYPE_CHECKING:
-    from colladaphy_schema.collada import Collada
+    from colladaphy_schema.document import Collada
 
 __all__ = [
     "AnyElement",
@@ -127,7 +127,7 @@ def _uses(text: str, prefix: str) -> bool:
 
 def decode_document(tree: _ElementTree | _Element) -> Collada:
     """The dataclass of a whole document; the garbage collector rests meanwhile."""
-    from colladaphy_schema.collada_codec import decode_Collada
+    from colladaphy_schema.document_codec import decode_Collada
 
     root = tree if isinstance(tree, _Element) else tree.getroot()
     if root.tag != f"{{{COLLADA_NAMESPACE}}}COLLADA":

@@ -365,16 +365,6 @@ def encode_ControllerType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ControllerType_skin_or_morph = {
-    SkinType: (encode_SkinType, "skin"),
-    MorphType: (encode_MorphType, "morph"),
-}
-TAGS_ControllerType_skin_or_morph = {
-    ("controllers", "SkinType"): "skin",
-    ("controllers", "MorphType"): "morph",
-}
-
-
 def decode_LibraryControllersType(e):
     o = new(LibraryControllersType)
     v_asset = None
@@ -428,3 +418,13 @@ def encode_LibraryControllersType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_ControllerType_skin_or_morph = {
+    SkinType: (encode_SkinType, "skin"),
+    MorphType: (encode_MorphType, "morph"),
+}
+TAGS_ControllerType_skin_or_morph = {
+    ("controllers", "SkinType"): "skin",
+    ("controllers", "MorphType"): "morph",
+}

@@ -118,17 +118,6 @@ def encode_EffectType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_EffectType_choice = {}
-TAGS_EffectType_choice = {
-    ("fx_common", "ProfileCommonType"): "profile_COMMON",
-    ("fx_common", "ProfileBridgeType"): "profile_BRIDGE",
-    ("fx_gles2", "ProfileGles2Type"): "profile_GLES2",
-    ("fx_glsl", "ProfileGlslType"): "profile_GLSL",
-    ("fx_cg", "ProfileCgType"): "profile_CG",
-    ("fx_gles", "ProfileGlesType"): "profile_GLES",
-}
-
-
 def decode_LibraryEffectsType(e):
     o = new(LibraryEffectsType)
     v_asset = None
@@ -182,3 +171,14 @@ def encode_LibraryEffectsType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_EffectType_choice = {}
+TAGS_EffectType_choice = {
+    ("fx_common", "ProfileCommonType"): "profile_COMMON",
+    ("fx_common", "ProfileBridgeType"): "profile_BRIDGE",
+    ("fx_gles2", "ProfileGles2Type"): "profile_GLES2",
+    ("fx_glsl", "ProfileGlslType"): "profile_GLSL",
+    ("fx_cg", "ProfileCgType"): "profile_CG",
+    ("fx_gles", "ProfileGlesType"): "profile_GLES",
+}

@@ -97,15 +97,6 @@ def encode_FormulaNewparamType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_FormulaNewparamType_choice = {
-    float: (leaf(lambda x: number_text(x)), "float"),
-    int: (leaf(lambda x: integer_text(x)), "int"),
-    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
-    bool: (leaf(lambda x: boolean_text(x)), "bool"),
-}
-TAGS_FormulaNewparamType_choice = {}
-
-
 def decode_FormulaSetparamType(e):
     o = new(FormulaSetparamType)
     v_choice = None
@@ -155,17 +146,6 @@ def encode_FormulaSetparamType(o, w, tag, i):
             f = choose(ENCODERS_FormulaSetparamType_choice, TAGS_FormulaSetparamType_choice, x)
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_FormulaSetparamType_choice = {
-    float: (leaf(lambda x: number_text(x)), "float"),
-    int: (leaf(lambda x: integer_text(x)), "int"),
-    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
-    bool: (leaf(lambda x: boolean_text(x)), "bool"),
-}
-TAGS_FormulaSetparamType_choice = {
-    ("parameters", "KinematicsConnectParamType"): "connect_param",
-}
 
 
 def decode_FormulaTechniqueType(e):
@@ -362,3 +342,23 @@ def encode_LibraryFormulasType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_FormulaNewparamType_choice = {
+    float: (leaf(lambda x: number_text(x)), "float"),
+    int: (leaf(lambda x: integer_text(x)), "int"),
+    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
+    bool: (leaf(lambda x: boolean_text(x)), "bool"),
+}
+TAGS_FormulaNewparamType_choice = {}
+
+
+ENCODERS_FormulaSetparamType_choice = {
+    float: (leaf(lambda x: number_text(x)), "float"),
+    int: (leaf(lambda x: integer_text(x)), "int"),
+    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
+    bool: (leaf(lambda x: boolean_text(x)), "bool"),
+}
+TAGS_FormulaSetparamType_choice = {
+    ("parameters", "KinematicsConnectParamType"): "connect_param",
+}

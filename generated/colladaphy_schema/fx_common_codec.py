@@ -196,25 +196,6 @@ def decode_FxAnnotateType(e):
     return o
 
 
-DECODERS_FxAnnotateType = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool2": decode_Bool2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool3": decode_Bool3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool4": decode_Bool4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}int2": decode_Int2,
-    "{http://www.collada.org/2008/03/COLLADASchema}int3": decode_Int3,
-    "{http://www.collada.org/2008/03/COLLADASchema}int4": decode_Int4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2": decode_Float2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3": decode_Float3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4": decode_Float4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x2": decode_Float2X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x3": decode_Float3X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x4": decode_Float4X4,
-}
-
-
 def encode_FxAnnotateType(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' name="' + attribute_escaped(o.name) + '"'
@@ -230,28 +211,6 @@ def encode_FxAnnotateType(o, w, tag, i):
             f = choose(ENCODERS_FxAnnotateType_choice, TAGS_FxAnnotateType_choice, x)
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_FxAnnotateType_choice = {
-    str: (leaf(lambda x: text_escaped(x)), "string"),
-}
-TAGS_FxAnnotateType_choice = {
-    ("materials", "Bool"): "bool",
-    ("materials", "Bool2"): "bool2",
-    ("materials", "Bool3"): "bool3",
-    ("materials", "Bool4"): "bool4",
-    ("materials", "Int"): "int",
-    ("materials", "Int2"): "int2",
-    ("materials", "Int3"): "int3",
-    ("materials", "Int4"): "int4",
-    ("materials", "Float"): "float",
-    ("materials", "Float2"): "float2",
-    ("materials", "Float3"): "float3",
-    ("materials", "Float4"): "float4",
-    ("materials", "Float2X2"): "float2x2",
-    ("materials", "Float3X3"): "float3x3",
-    ("materials", "Float4X4"): "float4x4",
-}
 
 
 def decode_FxClearcolorType(e, empty=""):
@@ -629,16 +588,6 @@ def encode_FxCommonFloatOrParamType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_FxCommonFloatOrParamType_float_or_param = {
-    FxCommonFloatOrParamTypeFloat: (encode_FxCommonFloatOrParamTypeFloat, "float"),
-    FxCommonFloatOrParamTypeParam: (encode_FxCommonFloatOrParamTypeParam, "param"),
-}
-TAGS_FxCommonFloatOrParamType_float_or_param = {
-    ("fx_common", "FxCommonFloatOrParamTypeFloat"): "float",
-    ("fx_common", "FxCommonFloatOrParamTypeParam"): "param",
-}
-
-
 DERIVED_FxRendertargetType = {
     "{http://www.collada.org/2008/03/COLLADASchema}fx_rendertarget_type": ("", ""),
     "{http://www.collada.org/2008/03/COLLADASchema}fx_colortarget_type": (
@@ -738,15 +687,6 @@ def encode_FxRendertargetType(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_FxRendertargetType_param_or_instance_image = {
-    FxRendertargetTypeParam: (encode_FxRendertargetTypeParam, "param"),
-}
-TAGS_FxRendertargetType_param_or_instance_image = {
-    ("fx_common", "FxRendertargetTypeParam"): "param",
-    ("images", "InstanceImageType"): "instance_image",
-}
 
 
 DERIVED_FxSamplerType = {
@@ -961,15 +901,6 @@ def encode_FxSourcesType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_FxSourcesType_inline_or_import = {
-    str: (leaf(lambda x: text_escaped(x)), "inline"),
-    FxSourcesTypeImport: (encode_FxSourcesTypeImport, "import"),
-}
-TAGS_FxSourcesType_inline_or_import = {
-    ("fx_common", "FxSourcesTypeImport"): "import",
-}
-
-
 def decode_FxTargetTypeBinary(e):
     o = new(FxTargetTypeBinary)
     v_ref_or_hex = None
@@ -1002,15 +933,6 @@ def encode_FxTargetTypeBinary(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_FxTargetTypeBinary_ref_or_hex = {
-    str: (leaf(lambda x: text_escaped(x)), "ref"),
-    FxTargetTypeBinaryHex: (encode_FxTargetTypeBinaryHex, "hex"),
-}
-TAGS_FxTargetTypeBinary_ref_or_hex = {
-    ("fx_common", "FxTargetTypeBinaryHex"): "hex",
-}
 
 
 def decode_ProfileBridgeType(e):
@@ -1145,15 +1067,6 @@ def encode_FxColortargetType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_FxColortargetType_param_or_instance_image = {
-    FxRendertargetTypeParam: (encode_FxRendertargetTypeParam, "param"),
-}
-TAGS_FxColortargetType_param_or_instance_image = {
-    ("fx_common", "FxRendertargetTypeParam"): "param",
-    ("images", "InstanceImageType"): "instance_image",
-}
-
-
 DERIVED_FxCommonColorOrTextureType = {
     "{http://www.collada.org/2008/03/COLLADASchema}fx_common_color_or_texture_type": ("", ""),
     "{http://www.collada.org/2008/03/COLLADASchema}fx_common_transparent_type": (
@@ -1206,18 +1119,6 @@ def encode_FxCommonColorOrTextureType(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_FxCommonColorOrTextureType_color_or_param_or_texture = {
-    FxCommonColorOrTextureTypeColor: (encode_FxCommonColorOrTextureTypeColor, "color"),
-    FxCommonColorOrTextureTypeParam: (encode_FxCommonColorOrTextureTypeParam, "param"),
-    FxCommonColorOrTextureTypeTexture: (encode_FxCommonColorOrTextureTypeTexture, "texture"),
-}
-TAGS_FxCommonColorOrTextureType_color_or_param_or_texture = {
-    ("fx_common", "FxCommonColorOrTextureTypeColor"): "color",
-    ("fx_common", "FxCommonColorOrTextureTypeParam"): "param",
-    ("fx_common", "FxCommonColorOrTextureTypeTexture"): "texture",
-}
 
 
 def decode_FxDepthtargetType(e):
@@ -1294,15 +1195,6 @@ def encode_FxDepthtargetType(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_FxDepthtargetType_param_or_instance_image = {
-    FxRendertargetTypeParam: (encode_FxRendertargetTypeParam, "param"),
-}
-TAGS_FxDepthtargetType_param_or_instance_image = {
-    ("fx_common", "FxRendertargetTypeParam"): "param",
-    ("images", "InstanceImageType"): "instance_image",
-}
 
 
 def decode_FxSampler1DType(e):
@@ -1597,15 +1489,6 @@ def encode_FxStenciltargetType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_FxStenciltargetType_param_or_instance_image = {
-    FxRendertargetTypeParam: (encode_FxRendertargetTypeParam, "param"),
-}
-TAGS_FxStenciltargetType_param_or_instance_image = {
-    ("fx_common", "FxRendertargetTypeParam"): "param",
-    ("images", "InstanceImageType"): "instance_image",
-}
-
-
 def decode_FxTargetType(e):
     o = new(FxTargetType)
     v_binary = None
@@ -1711,18 +1594,6 @@ def encode_FxCommonNewparamType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_FxCommonNewparamType_choice = {
-    FxSampler2DType: (encode_FxSampler2DType, "sampler2D"),
-}
-TAGS_FxCommonNewparamType_choice = {
-    ("materials", "Float"): "float",
-    ("materials", "Float2"): "float2",
-    ("materials", "Float3"): "float3",
-    ("materials", "Float4"): "float4",
-    ("fx_common", "FxSampler2DType"): "sampler2D",
-}
-
-
 def decode_FxCommonTransparentType(e):
     o = new(FxCommonTransparentType)
     v_color_or_param_or_texture = None
@@ -1774,18 +1645,6 @@ def encode_FxCommonTransparentType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_FxCommonTransparentType_color_or_param_or_texture = {
-    FxCommonColorOrTextureTypeColor: (encode_FxCommonColorOrTextureTypeColor, "color"),
-    FxCommonColorOrTextureTypeParam: (encode_FxCommonColorOrTextureTypeParam, "param"),
-    FxCommonColorOrTextureTypeTexture: (encode_FxCommonColorOrTextureTypeTexture, "texture"),
-}
-TAGS_FxCommonTransparentType_color_or_param_or_texture = {
-    ("fx_common", "FxCommonColorOrTextureTypeColor"): "color",
-    ("fx_common", "FxCommonColorOrTextureTypeParam"): "param",
-    ("fx_common", "FxCommonColorOrTextureTypeTexture"): "texture",
-}
-
-
 def decode_FxNewparamType(e):
     o = new(FxNewparamType)
     v_annotate = []
@@ -1827,40 +1686,6 @@ def decode_FxNewparamType(e):
     return o
 
 
-DECODERS_FxNewparamType = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool2": decode_Bool2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool3": decode_Bool3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool4": decode_Bool4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}int2": decode_Int2,
-    "{http://www.collada.org/2008/03/COLLADASchema}int3": decode_Int3,
-    "{http://www.collada.org/2008/03/COLLADASchema}int4": decode_Int4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2": decode_Float2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3": decode_Float3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4": decode_Float4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x1": decode_Float2X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x2": decode_Float2X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x3": decode_Float2X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x4": decode_Float2X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x1": decode_Float3X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x2": decode_Float3X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x3": decode_Float3X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x4": decode_Float3X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x1": decode_Float4X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x2": decode_Float4X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x3": decode_Float4X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x4": decode_Float4X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler1D": decode_FxSampler1DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerRECT": decode_FxSamplerRectType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
-}
-
-
 def encode_FxNewparamType(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' sid="' + attribute_escaped(o.sid) + '"'
@@ -1884,49 +1709,6 @@ def encode_FxNewparamType(o, w, tag, i):
             f = choose(ENCODERS_FxNewparamType_choice, TAGS_FxNewparamType_choice, x)
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_FxNewparamType_choice = {
-    FxSampler1DType: (encode_FxSampler1DType, "sampler1D"),
-    FxSampler2DType: (encode_FxSampler2DType, "sampler2D"),
-    FxSampler3DType: (encode_FxSampler3DType, "sampler3D"),
-    FxSamplerCubeType: (encode_FxSamplerCubeType, "samplerCUBE"),
-    FxSamplerRectType: (encode_FxSamplerRectType, "samplerRECT"),
-    FxSamplerDepthType: (encode_FxSamplerDepthType, "samplerDEPTH"),
-    str: (leaf(lambda x: text_escaped(x)), "enum"),
-}
-TAGS_FxNewparamType_choice = {
-    ("materials", "Bool"): "bool",
-    ("materials", "Bool2"): "bool2",
-    ("materials", "Bool3"): "bool3",
-    ("materials", "Bool4"): "bool4",
-    ("materials", "Int"): "int",
-    ("materials", "Int2"): "int2",
-    ("materials", "Int3"): "int3",
-    ("materials", "Int4"): "int4",
-    ("materials", "Float"): "float",
-    ("materials", "Float2"): "float2",
-    ("materials", "Float3"): "float3",
-    ("materials", "Float4"): "float4",
-    ("materials", "Float2X1"): "float2x1",
-    ("materials", "Float2X2"): "float2x2",
-    ("materials", "Float2X3"): "float2x3",
-    ("materials", "Float2X4"): "float2x4",
-    ("materials", "Float3X1"): "float3x1",
-    ("materials", "Float3X2"): "float3x2",
-    ("materials", "Float3X3"): "float3x3",
-    ("materials", "Float3X4"): "float3x4",
-    ("materials", "Float4X1"): "float4x1",
-    ("materials", "Float4X2"): "float4x2",
-    ("materials", "Float4X3"): "float4x3",
-    ("materials", "Float4X4"): "float4x4",
-    ("fx_common", "FxSampler1DType"): "sampler1D",
-    ("fx_common", "FxSampler2DType"): "sampler2D",
-    ("fx_common", "FxSampler3DType"): "sampler3D",
-    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
-    ("fx_common", "FxSamplerRectType"): "samplerRECT",
-    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
-}
 
 
 def decode_ProfileCommonTypeTechniqueBlinn(e):
@@ -2350,20 +2132,6 @@ def encode_ProfileCommonTypeTechnique(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ProfileCommonTypeTechnique_choice = {
-    ProfileCommonTypeTechniqueConstant: (encode_ProfileCommonTypeTechniqueConstant, "constant"),
-    ProfileCommonTypeTechniqueLambert: (encode_ProfileCommonTypeTechniqueLambert, "lambert"),
-    ProfileCommonTypeTechniquePhong: (encode_ProfileCommonTypeTechniquePhong, "phong"),
-    ProfileCommonTypeTechniqueBlinn: (encode_ProfileCommonTypeTechniqueBlinn, "blinn"),
-}
-TAGS_ProfileCommonTypeTechnique_choice = {
-    ("fx_common", "ProfileCommonTypeTechniqueConstant"): "constant",
-    ("fx_common", "ProfileCommonTypeTechniqueLambert"): "lambert",
-    ("fx_common", "ProfileCommonTypeTechniquePhong"): "phong",
-    ("fx_common", "ProfileCommonTypeTechniqueBlinn"): "blinn",
-}
-
-
 def decode_ProfileCommonType(e):
     o = new(ProfileCommonType)
     v_asset = None
@@ -2415,6 +2183,238 @@ def encode_ProfileCommonType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+DECODERS_FxAnnotateType = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool2": decode_Bool2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool3": decode_Bool3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool4": decode_Bool4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}int2": decode_Int2,
+    "{http://www.collada.org/2008/03/COLLADASchema}int3": decode_Int3,
+    "{http://www.collada.org/2008/03/COLLADASchema}int4": decode_Int4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2": decode_Float2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3": decode_Float3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4": decode_Float4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x2": decode_Float2X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x3": decode_Float3X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x4": decode_Float4X4,
+}
+
+
+ENCODERS_FxAnnotateType_choice = {
+    str: (leaf(lambda x: text_escaped(x)), "string"),
+}
+TAGS_FxAnnotateType_choice = {
+    ("materials", "Bool"): "bool",
+    ("materials", "Bool2"): "bool2",
+    ("materials", "Bool3"): "bool3",
+    ("materials", "Bool4"): "bool4",
+    ("materials", "Int"): "int",
+    ("materials", "Int2"): "int2",
+    ("materials", "Int3"): "int3",
+    ("materials", "Int4"): "int4",
+    ("materials", "Float"): "float",
+    ("materials", "Float2"): "float2",
+    ("materials", "Float3"): "float3",
+    ("materials", "Float4"): "float4",
+    ("materials", "Float2X2"): "float2x2",
+    ("materials", "Float3X3"): "float3x3",
+    ("materials", "Float4X4"): "float4x4",
+}
+
+
+ENCODERS_FxCommonFloatOrParamType_float_or_param = {
+    FxCommonFloatOrParamTypeFloat: (encode_FxCommonFloatOrParamTypeFloat, "float"),
+    FxCommonFloatOrParamTypeParam: (encode_FxCommonFloatOrParamTypeParam, "param"),
+}
+TAGS_FxCommonFloatOrParamType_float_or_param = {
+    ("fx_common", "FxCommonFloatOrParamTypeFloat"): "float",
+    ("fx_common", "FxCommonFloatOrParamTypeParam"): "param",
+}
+
+
+ENCODERS_FxRendertargetType_param_or_instance_image = {
+    FxRendertargetTypeParam: (encode_FxRendertargetTypeParam, "param"),
+}
+TAGS_FxRendertargetType_param_or_instance_image = {
+    ("fx_common", "FxRendertargetTypeParam"): "param",
+    ("images", "InstanceImageType"): "instance_image",
+}
+
+
+ENCODERS_FxSourcesType_inline_or_import = {
+    str: (leaf(lambda x: text_escaped(x)), "inline"),
+    FxSourcesTypeImport: (encode_FxSourcesTypeImport, "import"),
+}
+TAGS_FxSourcesType_inline_or_import = {
+    ("fx_common", "FxSourcesTypeImport"): "import",
+}
+
+
+ENCODERS_FxTargetTypeBinary_ref_or_hex = {
+    str: (leaf(lambda x: text_escaped(x)), "ref"),
+    FxTargetTypeBinaryHex: (encode_FxTargetTypeBinaryHex, "hex"),
+}
+TAGS_FxTargetTypeBinary_ref_or_hex = {
+    ("fx_common", "FxTargetTypeBinaryHex"): "hex",
+}
+
+
+ENCODERS_FxColortargetType_param_or_instance_image = {
+    FxRendertargetTypeParam: (encode_FxRendertargetTypeParam, "param"),
+}
+TAGS_FxColortargetType_param_or_instance_image = {
+    ("fx_common", "FxRendertargetTypeParam"): "param",
+    ("images", "InstanceImageType"): "instance_image",
+}
+
+
+ENCODERS_FxCommonColorOrTextureType_color_or_param_or_texture = {
+    FxCommonColorOrTextureTypeColor: (encode_FxCommonColorOrTextureTypeColor, "color"),
+    FxCommonColorOrTextureTypeParam: (encode_FxCommonColorOrTextureTypeParam, "param"),
+    FxCommonColorOrTextureTypeTexture: (encode_FxCommonColorOrTextureTypeTexture, "texture"),
+}
+TAGS_FxCommonColorOrTextureType_color_or_param_or_texture = {
+    ("fx_common", "FxCommonColorOrTextureTypeColor"): "color",
+    ("fx_common", "FxCommonColorOrTextureTypeParam"): "param",
+    ("fx_common", "FxCommonColorOrTextureTypeTexture"): "texture",
+}
+
+
+ENCODERS_FxDepthtargetType_param_or_instance_image = {
+    FxRendertargetTypeParam: (encode_FxRendertargetTypeParam, "param"),
+}
+TAGS_FxDepthtargetType_param_or_instance_image = {
+    ("fx_common", "FxRendertargetTypeParam"): "param",
+    ("images", "InstanceImageType"): "instance_image",
+}
+
+
+ENCODERS_FxStenciltargetType_param_or_instance_image = {
+    FxRendertargetTypeParam: (encode_FxRendertargetTypeParam, "param"),
+}
+TAGS_FxStenciltargetType_param_or_instance_image = {
+    ("fx_common", "FxRendertargetTypeParam"): "param",
+    ("images", "InstanceImageType"): "instance_image",
+}
+
+
+ENCODERS_FxCommonNewparamType_choice = {
+    FxSampler2DType: (encode_FxSampler2DType, "sampler2D"),
+}
+TAGS_FxCommonNewparamType_choice = {
+    ("materials", "Float"): "float",
+    ("materials", "Float2"): "float2",
+    ("materials", "Float3"): "float3",
+    ("materials", "Float4"): "float4",
+    ("fx_common", "FxSampler2DType"): "sampler2D",
+}
+
+
+ENCODERS_FxCommonTransparentType_color_or_param_or_texture = {
+    FxCommonColorOrTextureTypeColor: (encode_FxCommonColorOrTextureTypeColor, "color"),
+    FxCommonColorOrTextureTypeParam: (encode_FxCommonColorOrTextureTypeParam, "param"),
+    FxCommonColorOrTextureTypeTexture: (encode_FxCommonColorOrTextureTypeTexture, "texture"),
+}
+TAGS_FxCommonTransparentType_color_or_param_or_texture = {
+    ("fx_common", "FxCommonColorOrTextureTypeColor"): "color",
+    ("fx_common", "FxCommonColorOrTextureTypeParam"): "param",
+    ("fx_common", "FxCommonColorOrTextureTypeTexture"): "texture",
+}
+
+
+DECODERS_FxNewparamType = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool2": decode_Bool2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool3": decode_Bool3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool4": decode_Bool4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}int2": decode_Int2,
+    "{http://www.collada.org/2008/03/COLLADASchema}int3": decode_Int3,
+    "{http://www.collada.org/2008/03/COLLADASchema}int4": decode_Int4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2": decode_Float2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3": decode_Float3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4": decode_Float4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x1": decode_Float2X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x2": decode_Float2X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x3": decode_Float2X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x4": decode_Float2X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x1": decode_Float3X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x2": decode_Float3X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x3": decode_Float3X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x4": decode_Float3X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x1": decode_Float4X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x2": decode_Float4X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x3": decode_Float4X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x4": decode_Float4X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler1D": decode_FxSampler1DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerRECT": decode_FxSamplerRectType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
+}
+
+
+ENCODERS_FxNewparamType_choice = {
+    FxSampler1DType: (encode_FxSampler1DType, "sampler1D"),
+    FxSampler2DType: (encode_FxSampler2DType, "sampler2D"),
+    FxSampler3DType: (encode_FxSampler3DType, "sampler3D"),
+    FxSamplerCubeType: (encode_FxSamplerCubeType, "samplerCUBE"),
+    FxSamplerRectType: (encode_FxSamplerRectType, "samplerRECT"),
+    FxSamplerDepthType: (encode_FxSamplerDepthType, "samplerDEPTH"),
+    str: (leaf(lambda x: text_escaped(x)), "enum"),
+}
+TAGS_FxNewparamType_choice = {
+    ("materials", "Bool"): "bool",
+    ("materials", "Bool2"): "bool2",
+    ("materials", "Bool3"): "bool3",
+    ("materials", "Bool4"): "bool4",
+    ("materials", "Int"): "int",
+    ("materials", "Int2"): "int2",
+    ("materials", "Int3"): "int3",
+    ("materials", "Int4"): "int4",
+    ("materials", "Float"): "float",
+    ("materials", "Float2"): "float2",
+    ("materials", "Float3"): "float3",
+    ("materials", "Float4"): "float4",
+    ("materials", "Float2X1"): "float2x1",
+    ("materials", "Float2X2"): "float2x2",
+    ("materials", "Float2X3"): "float2x3",
+    ("materials", "Float2X4"): "float2x4",
+    ("materials", "Float3X1"): "float3x1",
+    ("materials", "Float3X2"): "float3x2",
+    ("materials", "Float3X3"): "float3x3",
+    ("materials", "Float3X4"): "float3x4",
+    ("materials", "Float4X1"): "float4x1",
+    ("materials", "Float4X2"): "float4x2",
+    ("materials", "Float4X3"): "float4x3",
+    ("materials", "Float4X4"): "float4x4",
+    ("fx_common", "FxSampler1DType"): "sampler1D",
+    ("fx_common", "FxSampler2DType"): "sampler2D",
+    ("fx_common", "FxSampler3DType"): "sampler3D",
+    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
+    ("fx_common", "FxSamplerRectType"): "samplerRECT",
+    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
+}
+
+
+ENCODERS_ProfileCommonTypeTechnique_choice = {
+    ProfileCommonTypeTechniqueConstant: (encode_ProfileCommonTypeTechniqueConstant, "constant"),
+    ProfileCommonTypeTechniqueLambert: (encode_ProfileCommonTypeTechniqueLambert, "lambert"),
+    ProfileCommonTypeTechniquePhong: (encode_ProfileCommonTypeTechniquePhong, "phong"),
+    ProfileCommonTypeTechniqueBlinn: (encode_ProfileCommonTypeTechniqueBlinn, "blinn"),
+}
+TAGS_ProfileCommonTypeTechnique_choice = {
+    ("fx_common", "ProfileCommonTypeTechniqueConstant"): "constant",
+    ("fx_common", "ProfileCommonTypeTechniqueLambert"): "lambert",
+    ("fx_common", "ProfileCommonTypeTechniquePhong"): "phong",
+    ("fx_common", "ProfileCommonTypeTechniqueBlinn"): "blinn",
+}
 
 
 links.tables = (

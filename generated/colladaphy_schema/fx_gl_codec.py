@@ -3320,14 +3320,6 @@ def encode_CgPassTypeStatesTexture1D(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_CgPassTypeStatesTexture1D_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_CgPassTypeStatesTexture1D_value_or_param = {
-    ("fx_common", "FxSampler1DType"): "value",
-}
-
-
 def decode_CgPassTypeStatesTexture1DEnable(e):
     o = new(CgPassTypeStatesTexture1DEnable)
     v_index = None
@@ -3410,14 +3402,6 @@ def encode_CgPassTypeStatesTexture2D(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_CgPassTypeStatesTexture2D_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_CgPassTypeStatesTexture2D_value_or_param = {
-    ("fx_common", "FxSampler2DType"): "value",
-}
 
 
 def decode_CgPassTypeStatesTexture2DEnable(e):
@@ -3504,14 +3488,6 @@ def encode_CgPassTypeStatesTexture3D(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_CgPassTypeStatesTexture3D_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_CgPassTypeStatesTexture3D_value_or_param = {
-    ("fx_common", "FxSampler3DType"): "value",
-}
-
-
 def decode_CgPassTypeStatesTexture3DEnable(e):
     o = new(CgPassTypeStatesTexture3DEnable)
     v_index = None
@@ -3594,14 +3570,6 @@ def encode_CgPassTypeStatesTextureCube(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_CgPassTypeStatesTextureCube_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_CgPassTypeStatesTextureCube_value_or_param = {
-    ("fx_common", "FxSamplerCubeType"): "value",
-}
 
 
 def decode_CgPassTypeStatesTextureCubeEnable(e):
@@ -3688,14 +3656,6 @@ def encode_CgPassTypeStatesTextureDepth(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_CgPassTypeStatesTextureDepth_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_CgPassTypeStatesTextureDepth_value_or_param = {
-    ("fx_common", "FxSamplerDepthType"): "value",
-}
-
-
 def decode_CgPassTypeStatesTextureDepthEnable(e):
     o = new(CgPassTypeStatesTextureDepthEnable)
     v_index = None
@@ -3778,14 +3738,6 @@ def encode_CgPassTypeStatesTextureRect(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_CgPassTypeStatesTextureRect_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_CgPassTypeStatesTextureRect_value_or_param = {
-    ("fx_common", "FxSamplerRectType"): "value",
-}
 
 
 def decode_CgPassTypeStatesTextureRectEnable(e):
@@ -6785,14 +6737,6 @@ def encode_ProfileGlslTypeTechniquePassStatesTexture1D(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ProfileGlslTypeTechniquePassStatesTexture1D_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_ProfileGlslTypeTechniquePassStatesTexture1D_value_or_param = {
-    ("fx_common", "FxSampler1DType"): "value",
-}
-
-
 def decode_ProfileGlslTypeTechniquePassStatesTexture1DEnable(e):
     o = new(ProfileGlslTypeTechniquePassStatesTexture1DEnable)
     v_index = None
@@ -6875,14 +6819,6 @@ def encode_ProfileGlslTypeTechniquePassStatesTexture2D(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_ProfileGlslTypeTechniquePassStatesTexture2D_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_ProfileGlslTypeTechniquePassStatesTexture2D_value_or_param = {
-    ("fx_common", "FxSampler2DType"): "value",
-}
 
 
 def decode_ProfileGlslTypeTechniquePassStatesTexture2DEnable(e):
@@ -6969,14 +6905,6 @@ def encode_ProfileGlslTypeTechniquePassStatesTexture3D(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ProfileGlslTypeTechniquePassStatesTexture3D_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_ProfileGlslTypeTechniquePassStatesTexture3D_value_or_param = {
-    ("fx_common", "FxSampler3DType"): "value",
-}
-
-
 def decode_ProfileGlslTypeTechniquePassStatesTexture3DEnable(e):
     o = new(ProfileGlslTypeTechniquePassStatesTexture3DEnable)
     v_index = None
@@ -7059,14 +6987,6 @@ def encode_ProfileGlslTypeTechniquePassStatesTextureCube(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_ProfileGlslTypeTechniquePassStatesTextureCube_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_ProfileGlslTypeTechniquePassStatesTextureCube_value_or_param = {
-    ("fx_common", "FxSamplerCubeType"): "value",
-}
 
 
 def decode_ProfileGlslTypeTechniquePassStatesTextureCubeEnable(e):
@@ -7153,14 +7073,6 @@ def encode_ProfileGlslTypeTechniquePassStatesTextureDepth(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ProfileGlslTypeTechniquePassStatesTextureDepth_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_ProfileGlslTypeTechniquePassStatesTextureDepth_value_or_param = {
-    ("fx_common", "FxSamplerDepthType"): "value",
-}
-
-
 def decode_ProfileGlslTypeTechniquePassStatesTextureDepthEnable(e):
     o = new(ProfileGlslTypeTechniquePassStatesTextureDepthEnable)
     v_index = None
@@ -7243,14 +7155,6 @@ def encode_ProfileGlslTypeTechniquePassStatesTextureRect(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_ProfileGlslTypeTechniquePassStatesTextureRect_value_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "param"),
-}
-TAGS_ProfileGlslTypeTechniquePassStatesTextureRect_value_or_param = {
-    ("fx_common", "FxSamplerRectType"): "value",
-}
 
 
 def decode_ProfileGlslTypeTechniquePassStatesTextureRectEnable(e):
@@ -10241,3 +10145,99 @@ def encode_ProfileGlslTypeTechniquePassStatesStencilOpSeparate(o, w, tag, i):
     x = o.zpass
     encode_ProfileGlslTypeTechniquePassStatesStencilOpSeparateZpass(x, w, "zpass", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_CgPassTypeStatesTexture1D_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_CgPassTypeStatesTexture1D_value_or_param = {
+    ("fx_common", "FxSampler1DType"): "value",
+}
+
+
+ENCODERS_CgPassTypeStatesTexture2D_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_CgPassTypeStatesTexture2D_value_or_param = {
+    ("fx_common", "FxSampler2DType"): "value",
+}
+
+
+ENCODERS_CgPassTypeStatesTexture3D_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_CgPassTypeStatesTexture3D_value_or_param = {
+    ("fx_common", "FxSampler3DType"): "value",
+}
+
+
+ENCODERS_CgPassTypeStatesTextureCube_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_CgPassTypeStatesTextureCube_value_or_param = {
+    ("fx_common", "FxSamplerCubeType"): "value",
+}
+
+
+ENCODERS_CgPassTypeStatesTextureDepth_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_CgPassTypeStatesTextureDepth_value_or_param = {
+    ("fx_common", "FxSamplerDepthType"): "value",
+}
+
+
+ENCODERS_CgPassTypeStatesTextureRect_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_CgPassTypeStatesTextureRect_value_or_param = {
+    ("fx_common", "FxSamplerRectType"): "value",
+}
+
+
+ENCODERS_ProfileGlslTypeTechniquePassStatesTexture1D_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_ProfileGlslTypeTechniquePassStatesTexture1D_value_or_param = {
+    ("fx_common", "FxSampler1DType"): "value",
+}
+
+
+ENCODERS_ProfileGlslTypeTechniquePassStatesTexture2D_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_ProfileGlslTypeTechniquePassStatesTexture2D_value_or_param = {
+    ("fx_common", "FxSampler2DType"): "value",
+}
+
+
+ENCODERS_ProfileGlslTypeTechniquePassStatesTexture3D_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_ProfileGlslTypeTechniquePassStatesTexture3D_value_or_param = {
+    ("fx_common", "FxSampler3DType"): "value",
+}
+
+
+ENCODERS_ProfileGlslTypeTechniquePassStatesTextureCube_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_ProfileGlslTypeTechniquePassStatesTextureCube_value_or_param = {
+    ("fx_common", "FxSamplerCubeType"): "value",
+}
+
+
+ENCODERS_ProfileGlslTypeTechniquePassStatesTextureDepth_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_ProfileGlslTypeTechniquePassStatesTextureDepth_value_or_param = {
+    ("fx_common", "FxSamplerDepthType"): "value",
+}
+
+
+ENCODERS_ProfileGlslTypeTechniquePassStatesTextureRect_value_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "param"),
+}
+TAGS_ProfileGlslTypeTechniquePassStatesTextureRect_value_or_param = {
+    ("fx_common", "FxSamplerRectType"): "value",
+}

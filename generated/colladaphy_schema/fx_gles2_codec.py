@@ -1526,31 +1526,6 @@ def decode_Gles2NewparamTypeArray(e):
     return o
 
 
-DECODERS_Gles2NewparamTypeArray = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
-    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2NewparamTypeUsertype,
-    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2NewparamTypeArray,
-}
-
-
 def encode_Gles2NewparamTypeArray(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' length="' + integer_text(o.length) + '"'
@@ -1567,48 +1542,6 @@ def encode_Gles2NewparamTypeArray(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_Gles2NewparamTypeArray_choice = {
-    Bvec2: (encode_Bvec2, "bvec2"),
-    Bvec3: (encode_Bvec3, "bvec3"),
-    Bvec4: (encode_Bvec4, "bvec4"),
-    Vec2: (encode_Vec2, "vec2"),
-    Vec3: (encode_Vec3, "vec3"),
-    Vec4: (encode_Vec4, "vec4"),
-    Mat2: (encode_Mat2, "mat2"),
-    Mat3: (encode_Mat3, "mat3"),
-    Mat4: (encode_Mat4, "mat4"),
-    Ivec2: (encode_Ivec2, "ivec2"),
-    Ivec3: (encode_Ivec3, "ivec3"),
-    Ivec4: (encode_Ivec4, "ivec4"),
-    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
-    Gles2NewparamTypeUsertype: (encode_Gles2NewparamTypeUsertype, "usertype"),
-    Gles2NewparamTypeArray: (encode_Gles2NewparamTypeArray, "array"),
-}
-TAGS_Gles2NewparamTypeArray_choice = {
-    ("materials", "Bool"): "bool",
-    ("fx_gles2", "Bvec2"): "bvec2",
-    ("fx_gles2", "Bvec3"): "bvec3",
-    ("fx_gles2", "Bvec4"): "bvec4",
-    ("materials", "Float"): "float",
-    ("fx_gles2", "Vec2"): "vec2",
-    ("fx_gles2", "Vec3"): "vec3",
-    ("fx_gles2", "Vec4"): "vec4",
-    ("fx_gles2", "Mat2"): "mat2",
-    ("fx_gles2", "Mat3"): "mat3",
-    ("fx_gles2", "Mat4"): "mat4",
-    ("materials", "Int"): "int",
-    ("fx_gles2", "Ivec2"): "ivec2",
-    ("fx_gles2", "Ivec3"): "ivec3",
-    ("fx_gles2", "Ivec4"): "ivec4",
-    ("fx_common", "FxSampler2DType"): "sampler2D",
-    ("fx_common", "FxSampler3DType"): "sampler3D",
-    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
-    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
-    ("fx_gles2", "Gles2NewparamTypeUsertype"): "usertype",
-    ("fx_gles2", "Gles2NewparamTypeArray"): "array",
-}
 
 
 def decode_Gles2PassTypeEvaluate(e):
@@ -2455,31 +2388,6 @@ def decode_Gles2ProgramTypeBindUniformArray(e):
     return o
 
 
-DECODERS_Gles2ProgramTypeBindUniformArray = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
-    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2ProgramTypeBindUniformUsertype,
-    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2ProgramTypeBindUniformArray,
-}
-
-
 def encode_Gles2ProgramTypeBindUniformArray(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' length="' + integer_text(o.length) + '"'
@@ -2498,48 +2406,6 @@ def encode_Gles2ProgramTypeBindUniformArray(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_Gles2ProgramTypeBindUniformArray_choice = {
-    Bvec2: (encode_Bvec2, "bvec2"),
-    Bvec3: (encode_Bvec3, "bvec3"),
-    Bvec4: (encode_Bvec4, "bvec4"),
-    Vec2: (encode_Vec2, "vec2"),
-    Vec3: (encode_Vec3, "vec3"),
-    Vec4: (encode_Vec4, "vec4"),
-    Mat2: (encode_Mat2, "mat2"),
-    Mat3: (encode_Mat3, "mat3"),
-    Mat4: (encode_Mat4, "mat4"),
-    Ivec2: (encode_Ivec2, "ivec2"),
-    Ivec3: (encode_Ivec3, "ivec3"),
-    Ivec4: (encode_Ivec4, "ivec4"),
-    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
-    Gles2ProgramTypeBindUniformUsertype: (encode_Gles2ProgramTypeBindUniformUsertype, "usertype"),
-    Gles2ProgramTypeBindUniformArray: (encode_Gles2ProgramTypeBindUniformArray, "array"),
-}
-TAGS_Gles2ProgramTypeBindUniformArray_choice = {
-    ("materials", "Bool"): "bool",
-    ("fx_gles2", "Bvec2"): "bvec2",
-    ("fx_gles2", "Bvec3"): "bvec3",
-    ("fx_gles2", "Bvec4"): "bvec4",
-    ("materials", "Float"): "float",
-    ("fx_gles2", "Vec2"): "vec2",
-    ("fx_gles2", "Vec3"): "vec3",
-    ("fx_gles2", "Vec4"): "vec4",
-    ("fx_gles2", "Mat2"): "mat2",
-    ("fx_gles2", "Mat3"): "mat3",
-    ("fx_gles2", "Mat4"): "mat4",
-    ("materials", "Int"): "int",
-    ("fx_gles2", "Ivec2"): "ivec2",
-    ("fx_gles2", "Ivec3"): "ivec3",
-    ("fx_gles2", "Ivec4"): "ivec4",
-    ("fx_common", "FxSampler2DType"): "sampler2D",
-    ("fx_common", "FxSampler3DType"): "sampler3D",
-    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
-    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
-    ("fx_gles2", "Gles2ProgramTypeBindUniformUsertype"): "usertype",
-    ("fx_gles2", "Gles2ProgramTypeBindUniformArray"): "array",
-}
 
 
 def decode_Gles2ShaderTypeSources(e):
@@ -2592,14 +2458,6 @@ def encode_Gles2ShaderTypeSources(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_Gles2ShaderTypeSources_inline_or_import = {
-    str: (leaf(lambda x: text_escaped(x)), "inline"),
-}
-TAGS_Gles2ShaderTypeSources_inline_or_import = {
-    ("fx_common", "FxSourcesTypeImport"): "import",
-}
-
-
 def decode_Gles2NewparamType(e):
     o = new(Gles2NewparamType)
     v_annotate = []
@@ -2641,31 +2499,6 @@ def decode_Gles2NewparamType(e):
     return o
 
 
-DECODERS_Gles2NewparamType = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
-    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2NewparamTypeUsertype,
-    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2NewparamTypeArray,
-}
-
-
 def encode_Gles2NewparamType(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' sid="' + attribute_escaped(o.sid) + '"'
@@ -2689,48 +2522,6 @@ def encode_Gles2NewparamType(o, w, tag, i):
             f = choose(ENCODERS_Gles2NewparamType_choice, TAGS_Gles2NewparamType_choice, x)
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_Gles2NewparamType_choice = {
-    Bvec2: (encode_Bvec2, "bvec2"),
-    Bvec3: (encode_Bvec3, "bvec3"),
-    Bvec4: (encode_Bvec4, "bvec4"),
-    Vec2: (encode_Vec2, "vec2"),
-    Vec3: (encode_Vec3, "vec3"),
-    Vec4: (encode_Vec4, "vec4"),
-    Mat2: (encode_Mat2, "mat2"),
-    Mat3: (encode_Mat3, "mat3"),
-    Mat4: (encode_Mat4, "mat4"),
-    Ivec2: (encode_Ivec2, "ivec2"),
-    Ivec3: (encode_Ivec3, "ivec3"),
-    Ivec4: (encode_Ivec4, "ivec4"),
-    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
-    Gles2NewparamTypeUsertype: (encode_Gles2NewparamTypeUsertype, "usertype"),
-    Gles2NewparamTypeArray: (encode_Gles2NewparamTypeArray, "array"),
-}
-TAGS_Gles2NewparamType_choice = {
-    ("materials", "Bool"): "bool",
-    ("fx_gles2", "Bvec2"): "bvec2",
-    ("fx_gles2", "Bvec3"): "bvec3",
-    ("fx_gles2", "Bvec4"): "bvec4",
-    ("materials", "Float"): "float",
-    ("fx_gles2", "Vec2"): "vec2",
-    ("fx_gles2", "Vec3"): "vec3",
-    ("fx_gles2", "Vec4"): "vec4",
-    ("fx_gles2", "Mat2"): "mat2",
-    ("fx_gles2", "Mat3"): "mat3",
-    ("fx_gles2", "Mat4"): "mat4",
-    ("materials", "Int"): "int",
-    ("fx_gles2", "Ivec2"): "ivec2",
-    ("fx_gles2", "Ivec3"): "ivec3",
-    ("fx_gles2", "Ivec4"): "ivec4",
-    ("fx_common", "FxSampler2DType"): "sampler2D",
-    ("fx_common", "FxSampler3DType"): "sampler3D",
-    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
-    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
-    ("fx_gles2", "Gles2NewparamTypeUsertype"): "usertype",
-    ("fx_gles2", "Gles2NewparamTypeArray"): "array",
-}
 
 
 def decode_Gles2NewparamTypeUsertypeSetparam(e):
@@ -2761,31 +2552,6 @@ def decode_Gles2NewparamTypeUsertypeSetparam(e):
     return o
 
 
-DECODERS_Gles2NewparamTypeUsertypeSetparam = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
-    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2NewparamTypeUsertype,
-    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2NewparamTypeArray,
-}
-
-
 def encode_Gles2NewparamTypeUsertypeSetparam(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' ref="' + attribute_escaped(o.ref) + '"'
@@ -2804,48 +2570,6 @@ def encode_Gles2NewparamTypeUsertypeSetparam(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_Gles2NewparamTypeUsertypeSetparam_choice = {
-    Bvec2: (encode_Bvec2, "bvec2"),
-    Bvec3: (encode_Bvec3, "bvec3"),
-    Bvec4: (encode_Bvec4, "bvec4"),
-    Vec2: (encode_Vec2, "vec2"),
-    Vec3: (encode_Vec3, "vec3"),
-    Vec4: (encode_Vec4, "vec4"),
-    Mat2: (encode_Mat2, "mat2"),
-    Mat3: (encode_Mat3, "mat3"),
-    Mat4: (encode_Mat4, "mat4"),
-    Ivec2: (encode_Ivec2, "ivec2"),
-    Ivec3: (encode_Ivec3, "ivec3"),
-    Ivec4: (encode_Ivec4, "ivec4"),
-    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
-    Gles2NewparamTypeUsertype: (encode_Gles2NewparamTypeUsertype, "usertype"),
-    Gles2NewparamTypeArray: (encode_Gles2NewparamTypeArray, "array"),
-}
-TAGS_Gles2NewparamTypeUsertypeSetparam_choice = {
-    ("materials", "Bool"): "bool",
-    ("fx_gles2", "Bvec2"): "bvec2",
-    ("fx_gles2", "Bvec3"): "bvec3",
-    ("fx_gles2", "Bvec4"): "bvec4",
-    ("materials", "Float"): "float",
-    ("fx_gles2", "Vec2"): "vec2",
-    ("fx_gles2", "Vec3"): "vec3",
-    ("fx_gles2", "Vec4"): "vec4",
-    ("fx_gles2", "Mat2"): "mat2",
-    ("fx_gles2", "Mat3"): "mat3",
-    ("fx_gles2", "Mat4"): "mat4",
-    ("materials", "Int"): "int",
-    ("fx_gles2", "Ivec2"): "ivec2",
-    ("fx_gles2", "Ivec3"): "ivec3",
-    ("fx_gles2", "Ivec4"): "ivec4",
-    ("fx_common", "FxSampler2DType"): "sampler2D",
-    ("fx_common", "FxSampler3DType"): "sampler3D",
-    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
-    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
-    ("fx_gles2", "Gles2NewparamTypeUsertype"): "usertype",
-    ("fx_gles2", "Gles2NewparamTypeArray"): "array",
-}
 
 
 def decode_Gles2PassTypeStatesBlendEquationSeparate(e):
@@ -3195,32 +2919,6 @@ def decode_Gles2ProgramTypeBindUniform(e):
     return o
 
 
-DECODERS_Gles2ProgramTypeBindUniform = {
-    "{http://www.collada.org/2008/03/COLLADASchema}param": decode_Gles2ProgramTypeBindUniformParam,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
-    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2ProgramTypeBindUniformUsertype,
-    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2ProgramTypeBindUniformArray,
-}
-
-
 def encode_Gles2ProgramTypeBindUniform(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' symbol="' + attribute_escaped(o.symbol) + '"'
@@ -3240,50 +2938,6 @@ def encode_Gles2ProgramTypeBindUniform(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_Gles2ProgramTypeBindUniform_choice = {
-    Gles2ProgramTypeBindUniformParam: (encode_Gles2ProgramTypeBindUniformParam, "param"),
-    Bvec2: (encode_Bvec2, "bvec2"),
-    Bvec3: (encode_Bvec3, "bvec3"),
-    Bvec4: (encode_Bvec4, "bvec4"),
-    Vec2: (encode_Vec2, "vec2"),
-    Vec3: (encode_Vec3, "vec3"),
-    Vec4: (encode_Vec4, "vec4"),
-    Mat2: (encode_Mat2, "mat2"),
-    Mat3: (encode_Mat3, "mat3"),
-    Mat4: (encode_Mat4, "mat4"),
-    Ivec2: (encode_Ivec2, "ivec2"),
-    Ivec3: (encode_Ivec3, "ivec3"),
-    Ivec4: (encode_Ivec4, "ivec4"),
-    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
-    Gles2ProgramTypeBindUniformUsertype: (encode_Gles2ProgramTypeBindUniformUsertype, "usertype"),
-    Gles2ProgramTypeBindUniformArray: (encode_Gles2ProgramTypeBindUniformArray, "array"),
-}
-TAGS_Gles2ProgramTypeBindUniform_choice = {
-    ("fx_gles2", "Gles2ProgramTypeBindUniformParam"): "param",
-    ("materials", "Bool"): "bool",
-    ("fx_gles2", "Bvec2"): "bvec2",
-    ("fx_gles2", "Bvec3"): "bvec3",
-    ("fx_gles2", "Bvec4"): "bvec4",
-    ("materials", "Float"): "float",
-    ("fx_gles2", "Vec2"): "vec2",
-    ("fx_gles2", "Vec3"): "vec3",
-    ("fx_gles2", "Vec4"): "vec4",
-    ("fx_gles2", "Mat2"): "mat2",
-    ("fx_gles2", "Mat3"): "mat3",
-    ("fx_gles2", "Mat4"): "mat4",
-    ("materials", "Int"): "int",
-    ("fx_gles2", "Ivec2"): "ivec2",
-    ("fx_gles2", "Ivec3"): "ivec3",
-    ("fx_gles2", "Ivec4"): "ivec4",
-    ("fx_common", "FxSampler2DType"): "sampler2D",
-    ("fx_common", "FxSampler3DType"): "sampler3D",
-    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
-    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
-    ("fx_gles2", "Gles2ProgramTypeBindUniformUsertype"): "usertype",
-    ("fx_gles2", "Gles2ProgramTypeBindUniformArray"): "array",
-}
 
 
 def decode_Gles2ProgramTypeBindUniformUsertypeSetparam(e):
@@ -3314,31 +2968,6 @@ def decode_Gles2ProgramTypeBindUniformUsertypeSetparam(e):
     return o
 
 
-DECODERS_Gles2ProgramTypeBindUniformUsertypeSetparam = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
-    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2ProgramTypeBindUniformUsertype,
-    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2ProgramTypeBindUniformArray,
-}
-
-
 def encode_Gles2ProgramTypeBindUniformUsertypeSetparam(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' ref="' + attribute_escaped(o.ref) + '"'
@@ -3357,48 +2986,6 @@ def encode_Gles2ProgramTypeBindUniformUsertypeSetparam(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_Gles2ProgramTypeBindUniformUsertypeSetparam_choice = {
-    Bvec2: (encode_Bvec2, "bvec2"),
-    Bvec3: (encode_Bvec3, "bvec3"),
-    Bvec4: (encode_Bvec4, "bvec4"),
-    Vec2: (encode_Vec2, "vec2"),
-    Vec3: (encode_Vec3, "vec3"),
-    Vec4: (encode_Vec4, "vec4"),
-    Mat2: (encode_Mat2, "mat2"),
-    Mat3: (encode_Mat3, "mat3"),
-    Mat4: (encode_Mat4, "mat4"),
-    Ivec2: (encode_Ivec2, "ivec2"),
-    Ivec3: (encode_Ivec3, "ivec3"),
-    Ivec4: (encode_Ivec4, "ivec4"),
-    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
-    Gles2ProgramTypeBindUniformUsertype: (encode_Gles2ProgramTypeBindUniformUsertype, "usertype"),
-    Gles2ProgramTypeBindUniformArray: (encode_Gles2ProgramTypeBindUniformArray, "array"),
-}
-TAGS_Gles2ProgramTypeBindUniformUsertypeSetparam_choice = {
-    ("materials", "Bool"): "bool",
-    ("fx_gles2", "Bvec2"): "bvec2",
-    ("fx_gles2", "Bvec3"): "bvec3",
-    ("fx_gles2", "Bvec4"): "bvec4",
-    ("materials", "Float"): "float",
-    ("fx_gles2", "Vec2"): "vec2",
-    ("fx_gles2", "Vec3"): "vec3",
-    ("fx_gles2", "Vec4"): "vec4",
-    ("fx_gles2", "Mat2"): "mat2",
-    ("fx_gles2", "Mat3"): "mat3",
-    ("fx_gles2", "Mat4"): "mat4",
-    ("materials", "Int"): "int",
-    ("fx_gles2", "Ivec2"): "ivec2",
-    ("fx_gles2", "Ivec3"): "ivec3",
-    ("fx_gles2", "Ivec4"): "ivec4",
-    ("fx_common", "FxSampler2DType"): "sampler2D",
-    ("fx_common", "FxSampler3DType"): "sampler3D",
-    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
-    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
-    ("fx_gles2", "Gles2ProgramTypeBindUniformUsertype"): "usertype",
-    ("fx_gles2", "Gles2ProgramTypeBindUniformArray"): "array",
-}
 
 
 def decode_Gles2ShaderType(e):
@@ -3461,42 +3048,6 @@ def decode_Gles2PassTypeStates(e):
     return o
 
 
-DECODERS_Gles2PassTypeStates = {
-    "{http://www.collada.org/2008/03/COLLADASchema}blend_color": decode_Gles2PassTypeStatesBlendColor,
-    "{http://www.collada.org/2008/03/COLLADASchema}blend_equation": decode_Gles2PassTypeStatesBlendEquation,
-    "{http://www.collada.org/2008/03/COLLADASchema}blend_equation_separate": decode_Gles2PassTypeStatesBlendEquationSeparate,
-    "{http://www.collada.org/2008/03/COLLADASchema}blend_func": decode_Gles2PassTypeStatesBlendFunc,
-    "{http://www.collada.org/2008/03/COLLADASchema}blend_func_separate": decode_Gles2PassTypeStatesBlendFuncSeparate,
-    "{http://www.collada.org/2008/03/COLLADASchema}color_mask": decode_Gles2PassTypeStatesColorMask,
-    "{http://www.collada.org/2008/03/COLLADASchema}cull_face": decode_Gles2PassTypeStatesCullFace,
-    "{http://www.collada.org/2008/03/COLLADASchema}depth_func": decode_Gles2PassTypeStatesDepthFunc,
-    "{http://www.collada.org/2008/03/COLLADASchema}depth_mask": decode_Gles2PassTypeStatesDepthMask,
-    "{http://www.collada.org/2008/03/COLLADASchema}depth_range": decode_Gles2PassTypeStatesDepthRange,
-    "{http://www.collada.org/2008/03/COLLADASchema}front_face": decode_Gles2PassTypeStatesFrontFace,
-    "{http://www.collada.org/2008/03/COLLADASchema}line_width": decode_Gles2PassTypeStatesLineWidth,
-    "{http://www.collada.org/2008/03/COLLADASchema}polygon_offset": decode_Gles2PassTypeStatesPolygonOffset,
-    "{http://www.collada.org/2008/03/COLLADASchema}point_size": decode_Gles2PassTypeStatesPointSize,
-    "{http://www.collada.org/2008/03/COLLADASchema}sample_coverage": decode_Gles2PassTypeStatesSampleCoverage,
-    "{http://www.collada.org/2008/03/COLLADASchema}scissor": decode_Gles2PassTypeStatesScissor,
-    "{http://www.collada.org/2008/03/COLLADASchema}stencil_func": decode_Gles2PassTypeStatesStencilFunc,
-    "{http://www.collada.org/2008/03/COLLADASchema}stencil_func_separate": decode_Gles2PassTypeStatesStencilFuncSeparate,
-    "{http://www.collada.org/2008/03/COLLADASchema}stencil_mask": decode_Gles2PassTypeStatesStencilMask,
-    "{http://www.collada.org/2008/03/COLLADASchema}stencil_mask_separate": decode_Gles2PassTypeStatesStencilMaskSeparate,
-    "{http://www.collada.org/2008/03/COLLADASchema}stencil_op": decode_Gles2PassTypeStatesStencilOp,
-    "{http://www.collada.org/2008/03/COLLADASchema}stencil_op_separate": decode_Gles2PassTypeStatesStencilOpSeparate,
-    "{http://www.collada.org/2008/03/COLLADASchema}blend_enable": decode_Gles2PassTypeStatesBlendEnable,
-    "{http://www.collada.org/2008/03/COLLADASchema}cull_face_enable": decode_Gles2PassTypeStatesCullFaceEnable,
-    "{http://www.collada.org/2008/03/COLLADASchema}depth_test_enable": decode_Gles2PassTypeStatesDepthTestEnable,
-    "{http://www.collada.org/2008/03/COLLADASchema}dither_enable": decode_Gles2PassTypeStatesDitherEnable,
-    "{http://www.collada.org/2008/03/COLLADASchema}polygon_offset_fill_enable": decode_Gles2PassTypeStatesPolygonOffsetFillEnable,
-    "{http://www.collada.org/2008/03/COLLADASchema}point_size_enable": decode_Gles2PassTypeStatesPointSizeEnable,
-    "{http://www.collada.org/2008/03/COLLADASchema}sample_alpha_to_coverage_enable": decode_Gles2PassTypeStatesSampleAlphaToCoverageEnable,
-    "{http://www.collada.org/2008/03/COLLADASchema}sample_coverage_enable": decode_Gles2PassTypeStatesSampleCoverageEnable,
-    "{http://www.collada.org/2008/03/COLLADASchema}scissor_test_enable": decode_Gles2PassTypeStatesScissorTestEnable,
-    "{http://www.collada.org/2008/03/COLLADASchema}stencil_test_enable": decode_Gles2PassTypeStatesStencilTestEnable,
-}
-
-
 def encode_Gles2PassTypeStates(o, w, tag, i):
     a = f"{i}<{tag}"
     if not (o.choice):
@@ -3510,121 +3061,6 @@ def encode_Gles2PassTypeStates(o, w, tag, i):
             f = choose(ENCODERS_Gles2PassTypeStates_choice, TAGS_Gles2PassTypeStates_choice, x)
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_Gles2PassTypeStates_choice = {
-    Gles2PassTypeStatesBlendColor: (encode_Gles2PassTypeStatesBlendColor, "blend_color"),
-    Gles2PassTypeStatesBlendEquation: (encode_Gles2PassTypeStatesBlendEquation, "blend_equation"),
-    Gles2PassTypeStatesBlendEquationSeparate: (
-        encode_Gles2PassTypeStatesBlendEquationSeparate,
-        "blend_equation_separate",
-    ),
-    Gles2PassTypeStatesBlendFunc: (encode_Gles2PassTypeStatesBlendFunc, "blend_func"),
-    Gles2PassTypeStatesBlendFuncSeparate: (
-        encode_Gles2PassTypeStatesBlendFuncSeparate,
-        "blend_func_separate",
-    ),
-    Gles2PassTypeStatesColorMask: (encode_Gles2PassTypeStatesColorMask, "color_mask"),
-    Gles2PassTypeStatesCullFace: (encode_Gles2PassTypeStatesCullFace, "cull_face"),
-    Gles2PassTypeStatesDepthFunc: (encode_Gles2PassTypeStatesDepthFunc, "depth_func"),
-    Gles2PassTypeStatesDepthMask: (encode_Gles2PassTypeStatesDepthMask, "depth_mask"),
-    Gles2PassTypeStatesDepthRange: (encode_Gles2PassTypeStatesDepthRange, "depth_range"),
-    Gles2PassTypeStatesFrontFace: (encode_Gles2PassTypeStatesFrontFace, "front_face"),
-    Gles2PassTypeStatesLineWidth: (encode_Gles2PassTypeStatesLineWidth, "line_width"),
-    Gles2PassTypeStatesPolygonOffset: (encode_Gles2PassTypeStatesPolygonOffset, "polygon_offset"),
-    Gles2PassTypeStatesPointSize: (encode_Gles2PassTypeStatesPointSize, "point_size"),
-    Gles2PassTypeStatesSampleCoverage: (
-        encode_Gles2PassTypeStatesSampleCoverage,
-        "sample_coverage",
-    ),
-    Gles2PassTypeStatesScissor: (encode_Gles2PassTypeStatesScissor, "scissor"),
-    Gles2PassTypeStatesStencilFunc: (encode_Gles2PassTypeStatesStencilFunc, "stencil_func"),
-    Gles2PassTypeStatesStencilFuncSeparate: (
-        encode_Gles2PassTypeStatesStencilFuncSeparate,
-        "stencil_func_separate",
-    ),
-    Gles2PassTypeStatesStencilMask: (encode_Gles2PassTypeStatesStencilMask, "stencil_mask"),
-    Gles2PassTypeStatesStencilMaskSeparate: (
-        encode_Gles2PassTypeStatesStencilMaskSeparate,
-        "stencil_mask_separate",
-    ),
-    Gles2PassTypeStatesStencilOp: (encode_Gles2PassTypeStatesStencilOp, "stencil_op"),
-    Gles2PassTypeStatesStencilOpSeparate: (
-        encode_Gles2PassTypeStatesStencilOpSeparate,
-        "stencil_op_separate",
-    ),
-    Gles2PassTypeStatesBlendEnable: (encode_Gles2PassTypeStatesBlendEnable, "blend_enable"),
-    Gles2PassTypeStatesCullFaceEnable: (
-        encode_Gles2PassTypeStatesCullFaceEnable,
-        "cull_face_enable",
-    ),
-    Gles2PassTypeStatesDepthTestEnable: (
-        encode_Gles2PassTypeStatesDepthTestEnable,
-        "depth_test_enable",
-    ),
-    Gles2PassTypeStatesDitherEnable: (encode_Gles2PassTypeStatesDitherEnable, "dither_enable"),
-    Gles2PassTypeStatesPolygonOffsetFillEnable: (
-        encode_Gles2PassTypeStatesPolygonOffsetFillEnable,
-        "polygon_offset_fill_enable",
-    ),
-    Gles2PassTypeStatesPointSizeEnable: (
-        encode_Gles2PassTypeStatesPointSizeEnable,
-        "point_size_enable",
-    ),
-    Gles2PassTypeStatesSampleAlphaToCoverageEnable: (
-        encode_Gles2PassTypeStatesSampleAlphaToCoverageEnable,
-        "sample_alpha_to_coverage_enable",
-    ),
-    Gles2PassTypeStatesSampleCoverageEnable: (
-        encode_Gles2PassTypeStatesSampleCoverageEnable,
-        "sample_coverage_enable",
-    ),
-    Gles2PassTypeStatesScissorTestEnable: (
-        encode_Gles2PassTypeStatesScissorTestEnable,
-        "scissor_test_enable",
-    ),
-    Gles2PassTypeStatesStencilTestEnable: (
-        encode_Gles2PassTypeStatesStencilTestEnable,
-        "stencil_test_enable",
-    ),
-}
-TAGS_Gles2PassTypeStates_choice = {
-    ("fx_gles2", "Gles2PassTypeStatesBlendColor"): "blend_color",
-    ("fx_gles2", "Gles2PassTypeStatesBlendEquation"): "blend_equation",
-    ("fx_gles2", "Gles2PassTypeStatesBlendEquationSeparate"): "blend_equation_separate",
-    ("fx_gles2", "Gles2PassTypeStatesBlendFunc"): "blend_func",
-    ("fx_gles2", "Gles2PassTypeStatesBlendFuncSeparate"): "blend_func_separate",
-    ("fx_gles2", "Gles2PassTypeStatesColorMask"): "color_mask",
-    ("fx_gles2", "Gles2PassTypeStatesCullFace"): "cull_face",
-    ("fx_gles2", "Gles2PassTypeStatesDepthFunc"): "depth_func",
-    ("fx_gles2", "Gles2PassTypeStatesDepthMask"): "depth_mask",
-    ("fx_gles2", "Gles2PassTypeStatesDepthRange"): "depth_range",
-    ("fx_gles2", "Gles2PassTypeStatesFrontFace"): "front_face",
-    ("fx_gles2", "Gles2PassTypeStatesLineWidth"): "line_width",
-    ("fx_gles2", "Gles2PassTypeStatesPolygonOffset"): "polygon_offset",
-    ("fx_gles2", "Gles2PassTypeStatesPointSize"): "point_size",
-    ("fx_gles2", "Gles2PassTypeStatesSampleCoverage"): "sample_coverage",
-    ("fx_gles2", "Gles2PassTypeStatesScissor"): "scissor",
-    ("fx_gles2", "Gles2PassTypeStatesStencilFunc"): "stencil_func",
-    ("fx_gles2", "Gles2PassTypeStatesStencilFuncSeparate"): "stencil_func_separate",
-    ("fx_gles2", "Gles2PassTypeStatesStencilMask"): "stencil_mask",
-    ("fx_gles2", "Gles2PassTypeStatesStencilMaskSeparate"): "stencil_mask_separate",
-    ("fx_gles2", "Gles2PassTypeStatesStencilOp"): "stencil_op",
-    ("fx_gles2", "Gles2PassTypeStatesStencilOpSeparate"): "stencil_op_separate",
-    ("fx_gles2", "Gles2PassTypeStatesBlendEnable"): "blend_enable",
-    ("fx_gles2", "Gles2PassTypeStatesCullFaceEnable"): "cull_face_enable",
-    ("fx_gles2", "Gles2PassTypeStatesDepthTestEnable"): "depth_test_enable",
-    ("fx_gles2", "Gles2PassTypeStatesDitherEnable"): "dither_enable",
-    ("fx_gles2", "Gles2PassTypeStatesPolygonOffsetFillEnable"): "polygon_offset_fill_enable",
-    ("fx_gles2", "Gles2PassTypeStatesPointSizeEnable"): "point_size_enable",
-    (
-        "fx_gles2",
-        "Gles2PassTypeStatesSampleAlphaToCoverageEnable",
-    ): "sample_alpha_to_coverage_enable",
-    ("fx_gles2", "Gles2PassTypeStatesSampleCoverageEnable"): "sample_coverage_enable",
-    ("fx_gles2", "Gles2PassTypeStatesScissorTestEnable"): "scissor_test_enable",
-    ("fx_gles2", "Gles2PassTypeStatesStencilTestEnable"): "stencil_test_enable",
-}
 
 
 def decode_Gles2ProgramType(e):
@@ -3711,31 +3147,6 @@ def decode_ProfileGles2TypeNewparam(e):
     return o
 
 
-DECODERS_ProfileGles2TypeNewparam = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
-    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
-    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
-    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
-    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2NewparamTypeUsertype,
-    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2NewparamTypeArray,
-}
-
-
 def encode_ProfileGles2TypeNewparam(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' sid="' + attribute_escaped(o.sid) + '"'
@@ -3761,48 +3172,6 @@ def encode_ProfileGles2TypeNewparam(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_ProfileGles2TypeNewparam_choice = {
-    Bvec2: (encode_Bvec2, "bvec2"),
-    Bvec3: (encode_Bvec3, "bvec3"),
-    Bvec4: (encode_Bvec4, "bvec4"),
-    Vec2: (encode_Vec2, "vec2"),
-    Vec3: (encode_Vec3, "vec3"),
-    Vec4: (encode_Vec4, "vec4"),
-    Mat2: (encode_Mat2, "mat2"),
-    Mat3: (encode_Mat3, "mat3"),
-    Mat4: (encode_Mat4, "mat4"),
-    Ivec2: (encode_Ivec2, "ivec2"),
-    Ivec3: (encode_Ivec3, "ivec3"),
-    Ivec4: (encode_Ivec4, "ivec4"),
-    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
-    Gles2NewparamTypeUsertype: (encode_Gles2NewparamTypeUsertype, "usertype"),
-    Gles2NewparamTypeArray: (encode_Gles2NewparamTypeArray, "array"),
-}
-TAGS_ProfileGles2TypeNewparam_choice = {
-    ("materials", "Bool"): "bool",
-    ("fx_gles2", "Bvec2"): "bvec2",
-    ("fx_gles2", "Bvec3"): "bvec3",
-    ("fx_gles2", "Bvec4"): "bvec4",
-    ("materials", "Float"): "float",
-    ("fx_gles2", "Vec2"): "vec2",
-    ("fx_gles2", "Vec3"): "vec3",
-    ("fx_gles2", "Vec4"): "vec4",
-    ("fx_gles2", "Mat2"): "mat2",
-    ("fx_gles2", "Mat3"): "mat3",
-    ("fx_gles2", "Mat4"): "mat4",
-    ("materials", "Int"): "int",
-    ("fx_gles2", "Ivec2"): "ivec2",
-    ("fx_gles2", "Ivec3"): "ivec3",
-    ("fx_gles2", "Ivec4"): "ivec4",
-    ("fx_common", "FxSampler2DType"): "sampler2D",
-    ("fx_common", "FxSampler3DType"): "sampler3D",
-    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
-    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
-    ("fx_gles2", "Gles2NewparamTypeUsertype"): "usertype",
-    ("fx_gles2", "Gles2NewparamTypeArray"): "array",
-}
 
 
 def decode_Gles2PassType(e):
@@ -4017,6 +3386,637 @@ def encode_ProfileGles2Type(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+DECODERS_Gles2NewparamTypeArray = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
+    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2NewparamTypeUsertype,
+    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2NewparamTypeArray,
+}
+
+
+ENCODERS_Gles2NewparamTypeArray_choice = {
+    Bvec2: (encode_Bvec2, "bvec2"),
+    Bvec3: (encode_Bvec3, "bvec3"),
+    Bvec4: (encode_Bvec4, "bvec4"),
+    Vec2: (encode_Vec2, "vec2"),
+    Vec3: (encode_Vec3, "vec3"),
+    Vec4: (encode_Vec4, "vec4"),
+    Mat2: (encode_Mat2, "mat2"),
+    Mat3: (encode_Mat3, "mat3"),
+    Mat4: (encode_Mat4, "mat4"),
+    Ivec2: (encode_Ivec2, "ivec2"),
+    Ivec3: (encode_Ivec3, "ivec3"),
+    Ivec4: (encode_Ivec4, "ivec4"),
+    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
+    Gles2NewparamTypeUsertype: (encode_Gles2NewparamTypeUsertype, "usertype"),
+    Gles2NewparamTypeArray: (encode_Gles2NewparamTypeArray, "array"),
+}
+TAGS_Gles2NewparamTypeArray_choice = {
+    ("materials", "Bool"): "bool",
+    ("fx_gles2", "Bvec2"): "bvec2",
+    ("fx_gles2", "Bvec3"): "bvec3",
+    ("fx_gles2", "Bvec4"): "bvec4",
+    ("materials", "Float"): "float",
+    ("fx_gles2", "Vec2"): "vec2",
+    ("fx_gles2", "Vec3"): "vec3",
+    ("fx_gles2", "Vec4"): "vec4",
+    ("fx_gles2", "Mat2"): "mat2",
+    ("fx_gles2", "Mat3"): "mat3",
+    ("fx_gles2", "Mat4"): "mat4",
+    ("materials", "Int"): "int",
+    ("fx_gles2", "Ivec2"): "ivec2",
+    ("fx_gles2", "Ivec3"): "ivec3",
+    ("fx_gles2", "Ivec4"): "ivec4",
+    ("fx_common", "FxSampler2DType"): "sampler2D",
+    ("fx_common", "FxSampler3DType"): "sampler3D",
+    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
+    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
+    ("fx_gles2", "Gles2NewparamTypeUsertype"): "usertype",
+    ("fx_gles2", "Gles2NewparamTypeArray"): "array",
+}
+
+
+DECODERS_Gles2ProgramTypeBindUniformArray = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
+    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2ProgramTypeBindUniformUsertype,
+    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2ProgramTypeBindUniformArray,
+}
+
+
+ENCODERS_Gles2ProgramTypeBindUniformArray_choice = {
+    Bvec2: (encode_Bvec2, "bvec2"),
+    Bvec3: (encode_Bvec3, "bvec3"),
+    Bvec4: (encode_Bvec4, "bvec4"),
+    Vec2: (encode_Vec2, "vec2"),
+    Vec3: (encode_Vec3, "vec3"),
+    Vec4: (encode_Vec4, "vec4"),
+    Mat2: (encode_Mat2, "mat2"),
+    Mat3: (encode_Mat3, "mat3"),
+    Mat4: (encode_Mat4, "mat4"),
+    Ivec2: (encode_Ivec2, "ivec2"),
+    Ivec3: (encode_Ivec3, "ivec3"),
+    Ivec4: (encode_Ivec4, "ivec4"),
+    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
+    Gles2ProgramTypeBindUniformUsertype: (encode_Gles2ProgramTypeBindUniformUsertype, "usertype"),
+    Gles2ProgramTypeBindUniformArray: (encode_Gles2ProgramTypeBindUniformArray, "array"),
+}
+TAGS_Gles2ProgramTypeBindUniformArray_choice = {
+    ("materials", "Bool"): "bool",
+    ("fx_gles2", "Bvec2"): "bvec2",
+    ("fx_gles2", "Bvec3"): "bvec3",
+    ("fx_gles2", "Bvec4"): "bvec4",
+    ("materials", "Float"): "float",
+    ("fx_gles2", "Vec2"): "vec2",
+    ("fx_gles2", "Vec3"): "vec3",
+    ("fx_gles2", "Vec4"): "vec4",
+    ("fx_gles2", "Mat2"): "mat2",
+    ("fx_gles2", "Mat3"): "mat3",
+    ("fx_gles2", "Mat4"): "mat4",
+    ("materials", "Int"): "int",
+    ("fx_gles2", "Ivec2"): "ivec2",
+    ("fx_gles2", "Ivec3"): "ivec3",
+    ("fx_gles2", "Ivec4"): "ivec4",
+    ("fx_common", "FxSampler2DType"): "sampler2D",
+    ("fx_common", "FxSampler3DType"): "sampler3D",
+    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
+    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
+    ("fx_gles2", "Gles2ProgramTypeBindUniformUsertype"): "usertype",
+    ("fx_gles2", "Gles2ProgramTypeBindUniformArray"): "array",
+}
+
+
+ENCODERS_Gles2ShaderTypeSources_inline_or_import = {
+    str: (leaf(lambda x: text_escaped(x)), "inline"),
+}
+TAGS_Gles2ShaderTypeSources_inline_or_import = {
+    ("fx_common", "FxSourcesTypeImport"): "import",
+}
+
+
+DECODERS_Gles2NewparamType = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
+    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2NewparamTypeUsertype,
+    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2NewparamTypeArray,
+}
+
+
+ENCODERS_Gles2NewparamType_choice = {
+    Bvec2: (encode_Bvec2, "bvec2"),
+    Bvec3: (encode_Bvec3, "bvec3"),
+    Bvec4: (encode_Bvec4, "bvec4"),
+    Vec2: (encode_Vec2, "vec2"),
+    Vec3: (encode_Vec3, "vec3"),
+    Vec4: (encode_Vec4, "vec4"),
+    Mat2: (encode_Mat2, "mat2"),
+    Mat3: (encode_Mat3, "mat3"),
+    Mat4: (encode_Mat4, "mat4"),
+    Ivec2: (encode_Ivec2, "ivec2"),
+    Ivec3: (encode_Ivec3, "ivec3"),
+    Ivec4: (encode_Ivec4, "ivec4"),
+    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
+    Gles2NewparamTypeUsertype: (encode_Gles2NewparamTypeUsertype, "usertype"),
+    Gles2NewparamTypeArray: (encode_Gles2NewparamTypeArray, "array"),
+}
+TAGS_Gles2NewparamType_choice = {
+    ("materials", "Bool"): "bool",
+    ("fx_gles2", "Bvec2"): "bvec2",
+    ("fx_gles2", "Bvec3"): "bvec3",
+    ("fx_gles2", "Bvec4"): "bvec4",
+    ("materials", "Float"): "float",
+    ("fx_gles2", "Vec2"): "vec2",
+    ("fx_gles2", "Vec3"): "vec3",
+    ("fx_gles2", "Vec4"): "vec4",
+    ("fx_gles2", "Mat2"): "mat2",
+    ("fx_gles2", "Mat3"): "mat3",
+    ("fx_gles2", "Mat4"): "mat4",
+    ("materials", "Int"): "int",
+    ("fx_gles2", "Ivec2"): "ivec2",
+    ("fx_gles2", "Ivec3"): "ivec3",
+    ("fx_gles2", "Ivec4"): "ivec4",
+    ("fx_common", "FxSampler2DType"): "sampler2D",
+    ("fx_common", "FxSampler3DType"): "sampler3D",
+    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
+    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
+    ("fx_gles2", "Gles2NewparamTypeUsertype"): "usertype",
+    ("fx_gles2", "Gles2NewparamTypeArray"): "array",
+}
+
+
+DECODERS_Gles2NewparamTypeUsertypeSetparam = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
+    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2NewparamTypeUsertype,
+    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2NewparamTypeArray,
+}
+
+
+ENCODERS_Gles2NewparamTypeUsertypeSetparam_choice = {
+    Bvec2: (encode_Bvec2, "bvec2"),
+    Bvec3: (encode_Bvec3, "bvec3"),
+    Bvec4: (encode_Bvec4, "bvec4"),
+    Vec2: (encode_Vec2, "vec2"),
+    Vec3: (encode_Vec3, "vec3"),
+    Vec4: (encode_Vec4, "vec4"),
+    Mat2: (encode_Mat2, "mat2"),
+    Mat3: (encode_Mat3, "mat3"),
+    Mat4: (encode_Mat4, "mat4"),
+    Ivec2: (encode_Ivec2, "ivec2"),
+    Ivec3: (encode_Ivec3, "ivec3"),
+    Ivec4: (encode_Ivec4, "ivec4"),
+    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
+    Gles2NewparamTypeUsertype: (encode_Gles2NewparamTypeUsertype, "usertype"),
+    Gles2NewparamTypeArray: (encode_Gles2NewparamTypeArray, "array"),
+}
+TAGS_Gles2NewparamTypeUsertypeSetparam_choice = {
+    ("materials", "Bool"): "bool",
+    ("fx_gles2", "Bvec2"): "bvec2",
+    ("fx_gles2", "Bvec3"): "bvec3",
+    ("fx_gles2", "Bvec4"): "bvec4",
+    ("materials", "Float"): "float",
+    ("fx_gles2", "Vec2"): "vec2",
+    ("fx_gles2", "Vec3"): "vec3",
+    ("fx_gles2", "Vec4"): "vec4",
+    ("fx_gles2", "Mat2"): "mat2",
+    ("fx_gles2", "Mat3"): "mat3",
+    ("fx_gles2", "Mat4"): "mat4",
+    ("materials", "Int"): "int",
+    ("fx_gles2", "Ivec2"): "ivec2",
+    ("fx_gles2", "Ivec3"): "ivec3",
+    ("fx_gles2", "Ivec4"): "ivec4",
+    ("fx_common", "FxSampler2DType"): "sampler2D",
+    ("fx_common", "FxSampler3DType"): "sampler3D",
+    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
+    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
+    ("fx_gles2", "Gles2NewparamTypeUsertype"): "usertype",
+    ("fx_gles2", "Gles2NewparamTypeArray"): "array",
+}
+
+
+DECODERS_Gles2ProgramTypeBindUniform = {
+    "{http://www.collada.org/2008/03/COLLADASchema}param": decode_Gles2ProgramTypeBindUniformParam,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
+    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2ProgramTypeBindUniformUsertype,
+    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2ProgramTypeBindUniformArray,
+}
+
+
+ENCODERS_Gles2ProgramTypeBindUniform_choice = {
+    Gles2ProgramTypeBindUniformParam: (encode_Gles2ProgramTypeBindUniformParam, "param"),
+    Bvec2: (encode_Bvec2, "bvec2"),
+    Bvec3: (encode_Bvec3, "bvec3"),
+    Bvec4: (encode_Bvec4, "bvec4"),
+    Vec2: (encode_Vec2, "vec2"),
+    Vec3: (encode_Vec3, "vec3"),
+    Vec4: (encode_Vec4, "vec4"),
+    Mat2: (encode_Mat2, "mat2"),
+    Mat3: (encode_Mat3, "mat3"),
+    Mat4: (encode_Mat4, "mat4"),
+    Ivec2: (encode_Ivec2, "ivec2"),
+    Ivec3: (encode_Ivec3, "ivec3"),
+    Ivec4: (encode_Ivec4, "ivec4"),
+    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
+    Gles2ProgramTypeBindUniformUsertype: (encode_Gles2ProgramTypeBindUniformUsertype, "usertype"),
+    Gles2ProgramTypeBindUniformArray: (encode_Gles2ProgramTypeBindUniformArray, "array"),
+}
+TAGS_Gles2ProgramTypeBindUniform_choice = {
+    ("fx_gles2", "Gles2ProgramTypeBindUniformParam"): "param",
+    ("materials", "Bool"): "bool",
+    ("fx_gles2", "Bvec2"): "bvec2",
+    ("fx_gles2", "Bvec3"): "bvec3",
+    ("fx_gles2", "Bvec4"): "bvec4",
+    ("materials", "Float"): "float",
+    ("fx_gles2", "Vec2"): "vec2",
+    ("fx_gles2", "Vec3"): "vec3",
+    ("fx_gles2", "Vec4"): "vec4",
+    ("fx_gles2", "Mat2"): "mat2",
+    ("fx_gles2", "Mat3"): "mat3",
+    ("fx_gles2", "Mat4"): "mat4",
+    ("materials", "Int"): "int",
+    ("fx_gles2", "Ivec2"): "ivec2",
+    ("fx_gles2", "Ivec3"): "ivec3",
+    ("fx_gles2", "Ivec4"): "ivec4",
+    ("fx_common", "FxSampler2DType"): "sampler2D",
+    ("fx_common", "FxSampler3DType"): "sampler3D",
+    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
+    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
+    ("fx_gles2", "Gles2ProgramTypeBindUniformUsertype"): "usertype",
+    ("fx_gles2", "Gles2ProgramTypeBindUniformArray"): "array",
+}
+
+
+DECODERS_Gles2ProgramTypeBindUniformUsertypeSetparam = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
+    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2ProgramTypeBindUniformUsertype,
+    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2ProgramTypeBindUniformArray,
+}
+
+
+ENCODERS_Gles2ProgramTypeBindUniformUsertypeSetparam_choice = {
+    Bvec2: (encode_Bvec2, "bvec2"),
+    Bvec3: (encode_Bvec3, "bvec3"),
+    Bvec4: (encode_Bvec4, "bvec4"),
+    Vec2: (encode_Vec2, "vec2"),
+    Vec3: (encode_Vec3, "vec3"),
+    Vec4: (encode_Vec4, "vec4"),
+    Mat2: (encode_Mat2, "mat2"),
+    Mat3: (encode_Mat3, "mat3"),
+    Mat4: (encode_Mat4, "mat4"),
+    Ivec2: (encode_Ivec2, "ivec2"),
+    Ivec3: (encode_Ivec3, "ivec3"),
+    Ivec4: (encode_Ivec4, "ivec4"),
+    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
+    Gles2ProgramTypeBindUniformUsertype: (encode_Gles2ProgramTypeBindUniformUsertype, "usertype"),
+    Gles2ProgramTypeBindUniformArray: (encode_Gles2ProgramTypeBindUniformArray, "array"),
+}
+TAGS_Gles2ProgramTypeBindUniformUsertypeSetparam_choice = {
+    ("materials", "Bool"): "bool",
+    ("fx_gles2", "Bvec2"): "bvec2",
+    ("fx_gles2", "Bvec3"): "bvec3",
+    ("fx_gles2", "Bvec4"): "bvec4",
+    ("materials", "Float"): "float",
+    ("fx_gles2", "Vec2"): "vec2",
+    ("fx_gles2", "Vec3"): "vec3",
+    ("fx_gles2", "Vec4"): "vec4",
+    ("fx_gles2", "Mat2"): "mat2",
+    ("fx_gles2", "Mat3"): "mat3",
+    ("fx_gles2", "Mat4"): "mat4",
+    ("materials", "Int"): "int",
+    ("fx_gles2", "Ivec2"): "ivec2",
+    ("fx_gles2", "Ivec3"): "ivec3",
+    ("fx_gles2", "Ivec4"): "ivec4",
+    ("fx_common", "FxSampler2DType"): "sampler2D",
+    ("fx_common", "FxSampler3DType"): "sampler3D",
+    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
+    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
+    ("fx_gles2", "Gles2ProgramTypeBindUniformUsertype"): "usertype",
+    ("fx_gles2", "Gles2ProgramTypeBindUniformArray"): "array",
+}
+
+
+DECODERS_Gles2PassTypeStates = {
+    "{http://www.collada.org/2008/03/COLLADASchema}blend_color": decode_Gles2PassTypeStatesBlendColor,
+    "{http://www.collada.org/2008/03/COLLADASchema}blend_equation": decode_Gles2PassTypeStatesBlendEquation,
+    "{http://www.collada.org/2008/03/COLLADASchema}blend_equation_separate": decode_Gles2PassTypeStatesBlendEquationSeparate,
+    "{http://www.collada.org/2008/03/COLLADASchema}blend_func": decode_Gles2PassTypeStatesBlendFunc,
+    "{http://www.collada.org/2008/03/COLLADASchema}blend_func_separate": decode_Gles2PassTypeStatesBlendFuncSeparate,
+    "{http://www.collada.org/2008/03/COLLADASchema}color_mask": decode_Gles2PassTypeStatesColorMask,
+    "{http://www.collada.org/2008/03/COLLADASchema}cull_face": decode_Gles2PassTypeStatesCullFace,
+    "{http://www.collada.org/2008/03/COLLADASchema}depth_func": decode_Gles2PassTypeStatesDepthFunc,
+    "{http://www.collada.org/2008/03/COLLADASchema}depth_mask": decode_Gles2PassTypeStatesDepthMask,
+    "{http://www.collada.org/2008/03/COLLADASchema}depth_range": decode_Gles2PassTypeStatesDepthRange,
+    "{http://www.collada.org/2008/03/COLLADASchema}front_face": decode_Gles2PassTypeStatesFrontFace,
+    "{http://www.collada.org/2008/03/COLLADASchema}line_width": decode_Gles2PassTypeStatesLineWidth,
+    "{http://www.collada.org/2008/03/COLLADASchema}polygon_offset": decode_Gles2PassTypeStatesPolygonOffset,
+    "{http://www.collada.org/2008/03/COLLADASchema}point_size": decode_Gles2PassTypeStatesPointSize,
+    "{http://www.collada.org/2008/03/COLLADASchema}sample_coverage": decode_Gles2PassTypeStatesSampleCoverage,
+    "{http://www.collada.org/2008/03/COLLADASchema}scissor": decode_Gles2PassTypeStatesScissor,
+    "{http://www.collada.org/2008/03/COLLADASchema}stencil_func": decode_Gles2PassTypeStatesStencilFunc,
+    "{http://www.collada.org/2008/03/COLLADASchema}stencil_func_separate": decode_Gles2PassTypeStatesStencilFuncSeparate,
+    "{http://www.collada.org/2008/03/COLLADASchema}stencil_mask": decode_Gles2PassTypeStatesStencilMask,
+    "{http://www.collada.org/2008/03/COLLADASchema}stencil_mask_separate": decode_Gles2PassTypeStatesStencilMaskSeparate,
+    "{http://www.collada.org/2008/03/COLLADASchema}stencil_op": decode_Gles2PassTypeStatesStencilOp,
+    "{http://www.collada.org/2008/03/COLLADASchema}stencil_op_separate": decode_Gles2PassTypeStatesStencilOpSeparate,
+    "{http://www.collada.org/2008/03/COLLADASchema}blend_enable": decode_Gles2PassTypeStatesBlendEnable,
+    "{http://www.collada.org/2008/03/COLLADASchema}cull_face_enable": decode_Gles2PassTypeStatesCullFaceEnable,
+    "{http://www.collada.org/2008/03/COLLADASchema}depth_test_enable": decode_Gles2PassTypeStatesDepthTestEnable,
+    "{http://www.collada.org/2008/03/COLLADASchema}dither_enable": decode_Gles2PassTypeStatesDitherEnable,
+    "{http://www.collada.org/2008/03/COLLADASchema}polygon_offset_fill_enable": decode_Gles2PassTypeStatesPolygonOffsetFillEnable,
+    "{http://www.collada.org/2008/03/COLLADASchema}point_size_enable": decode_Gles2PassTypeStatesPointSizeEnable,
+    "{http://www.collada.org/2008/03/COLLADASchema}sample_alpha_to_coverage_enable": decode_Gles2PassTypeStatesSampleAlphaToCoverageEnable,
+    "{http://www.collada.org/2008/03/COLLADASchema}sample_coverage_enable": decode_Gles2PassTypeStatesSampleCoverageEnable,
+    "{http://www.collada.org/2008/03/COLLADASchema}scissor_test_enable": decode_Gles2PassTypeStatesScissorTestEnable,
+    "{http://www.collada.org/2008/03/COLLADASchema}stencil_test_enable": decode_Gles2PassTypeStatesStencilTestEnable,
+}
+
+
+ENCODERS_Gles2PassTypeStates_choice = {
+    Gles2PassTypeStatesBlendColor: (encode_Gles2PassTypeStatesBlendColor, "blend_color"),
+    Gles2PassTypeStatesBlendEquation: (encode_Gles2PassTypeStatesBlendEquation, "blend_equation"),
+    Gles2PassTypeStatesBlendEquationSeparate: (
+        encode_Gles2PassTypeStatesBlendEquationSeparate,
+        "blend_equation_separate",
+    ),
+    Gles2PassTypeStatesBlendFunc: (encode_Gles2PassTypeStatesBlendFunc, "blend_func"),
+    Gles2PassTypeStatesBlendFuncSeparate: (
+        encode_Gles2PassTypeStatesBlendFuncSeparate,
+        "blend_func_separate",
+    ),
+    Gles2PassTypeStatesColorMask: (encode_Gles2PassTypeStatesColorMask, "color_mask"),
+    Gles2PassTypeStatesCullFace: (encode_Gles2PassTypeStatesCullFace, "cull_face"),
+    Gles2PassTypeStatesDepthFunc: (encode_Gles2PassTypeStatesDepthFunc, "depth_func"),
+    Gles2PassTypeStatesDepthMask: (encode_Gles2PassTypeStatesDepthMask, "depth_mask"),
+    Gles2PassTypeStatesDepthRange: (encode_Gles2PassTypeStatesDepthRange, "depth_range"),
+    Gles2PassTypeStatesFrontFace: (encode_Gles2PassTypeStatesFrontFace, "front_face"),
+    Gles2PassTypeStatesLineWidth: (encode_Gles2PassTypeStatesLineWidth, "line_width"),
+    Gles2PassTypeStatesPolygonOffset: (encode_Gles2PassTypeStatesPolygonOffset, "polygon_offset"),
+    Gles2PassTypeStatesPointSize: (encode_Gles2PassTypeStatesPointSize, "point_size"),
+    Gles2PassTypeStatesSampleCoverage: (
+        encode_Gles2PassTypeStatesSampleCoverage,
+        "sample_coverage",
+    ),
+    Gles2PassTypeStatesScissor: (encode_Gles2PassTypeStatesScissor, "scissor"),
+    Gles2PassTypeStatesStencilFunc: (encode_Gles2PassTypeStatesStencilFunc, "stencil_func"),
+    Gles2PassTypeStatesStencilFuncSeparate: (
+        encode_Gles2PassTypeStatesStencilFuncSeparate,
+        "stencil_func_separate",
+    ),
+    Gles2PassTypeStatesStencilMask: (encode_Gles2PassTypeStatesStencilMask, "stencil_mask"),
+    Gles2PassTypeStatesStencilMaskSeparate: (
+        encode_Gles2PassTypeStatesStencilMaskSeparate,
+        "stencil_mask_separate",
+    ),
+    Gles2PassTypeStatesStencilOp: (encode_Gles2PassTypeStatesStencilOp, "stencil_op"),
+    Gles2PassTypeStatesStencilOpSeparate: (
+        encode_Gles2PassTypeStatesStencilOpSeparate,
+        "stencil_op_separate",
+    ),
+    Gles2PassTypeStatesBlendEnable: (encode_Gles2PassTypeStatesBlendEnable, "blend_enable"),
+    Gles2PassTypeStatesCullFaceEnable: (
+        encode_Gles2PassTypeStatesCullFaceEnable,
+        "cull_face_enable",
+    ),
+    Gles2PassTypeStatesDepthTestEnable: (
+        encode_Gles2PassTypeStatesDepthTestEnable,
+        "depth_test_enable",
+    ),
+    Gles2PassTypeStatesDitherEnable: (encode_Gles2PassTypeStatesDitherEnable, "dither_enable"),
+    Gles2PassTypeStatesPolygonOffsetFillEnable: (
+        encode_Gles2PassTypeStatesPolygonOffsetFillEnable,
+        "polygon_offset_fill_enable",
+    ),
+    Gles2PassTypeStatesPointSizeEnable: (
+        encode_Gles2PassTypeStatesPointSizeEnable,
+        "point_size_enable",
+    ),
+    Gles2PassTypeStatesSampleAlphaToCoverageEnable: (
+        encode_Gles2PassTypeStatesSampleAlphaToCoverageEnable,
+        "sample_alpha_to_coverage_enable",
+    ),
+    Gles2PassTypeStatesSampleCoverageEnable: (
+        encode_Gles2PassTypeStatesSampleCoverageEnable,
+        "sample_coverage_enable",
+    ),
+    Gles2PassTypeStatesScissorTestEnable: (
+        encode_Gles2PassTypeStatesScissorTestEnable,
+        "scissor_test_enable",
+    ),
+    Gles2PassTypeStatesStencilTestEnable: (
+        encode_Gles2PassTypeStatesStencilTestEnable,
+        "stencil_test_enable",
+    ),
+}
+TAGS_Gles2PassTypeStates_choice = {
+    ("fx_gles2", "Gles2PassTypeStatesBlendColor"): "blend_color",
+    ("fx_gles2", "Gles2PassTypeStatesBlendEquation"): "blend_equation",
+    ("fx_gles2", "Gles2PassTypeStatesBlendEquationSeparate"): "blend_equation_separate",
+    ("fx_gles2", "Gles2PassTypeStatesBlendFunc"): "blend_func",
+    ("fx_gles2", "Gles2PassTypeStatesBlendFuncSeparate"): "blend_func_separate",
+    ("fx_gles2", "Gles2PassTypeStatesColorMask"): "color_mask",
+    ("fx_gles2", "Gles2PassTypeStatesCullFace"): "cull_face",
+    ("fx_gles2", "Gles2PassTypeStatesDepthFunc"): "depth_func",
+    ("fx_gles2", "Gles2PassTypeStatesDepthMask"): "depth_mask",
+    ("fx_gles2", "Gles2PassTypeStatesDepthRange"): "depth_range",
+    ("fx_gles2", "Gles2PassTypeStatesFrontFace"): "front_face",
+    ("fx_gles2", "Gles2PassTypeStatesLineWidth"): "line_width",
+    ("fx_gles2", "Gles2PassTypeStatesPolygonOffset"): "polygon_offset",
+    ("fx_gles2", "Gles2PassTypeStatesPointSize"): "point_size",
+    ("fx_gles2", "Gles2PassTypeStatesSampleCoverage"): "sample_coverage",
+    ("fx_gles2", "Gles2PassTypeStatesScissor"): "scissor",
+    ("fx_gles2", "Gles2PassTypeStatesStencilFunc"): "stencil_func",
+    ("fx_gles2", "Gles2PassTypeStatesStencilFuncSeparate"): "stencil_func_separate",
+    ("fx_gles2", "Gles2PassTypeStatesStencilMask"): "stencil_mask",
+    ("fx_gles2", "Gles2PassTypeStatesStencilMaskSeparate"): "stencil_mask_separate",
+    ("fx_gles2", "Gles2PassTypeStatesStencilOp"): "stencil_op",
+    ("fx_gles2", "Gles2PassTypeStatesStencilOpSeparate"): "stencil_op_separate",
+    ("fx_gles2", "Gles2PassTypeStatesBlendEnable"): "blend_enable",
+    ("fx_gles2", "Gles2PassTypeStatesCullFaceEnable"): "cull_face_enable",
+    ("fx_gles2", "Gles2PassTypeStatesDepthTestEnable"): "depth_test_enable",
+    ("fx_gles2", "Gles2PassTypeStatesDitherEnable"): "dither_enable",
+    ("fx_gles2", "Gles2PassTypeStatesPolygonOffsetFillEnable"): "polygon_offset_fill_enable",
+    ("fx_gles2", "Gles2PassTypeStatesPointSizeEnable"): "point_size_enable",
+    (
+        "fx_gles2",
+        "Gles2PassTypeStatesSampleAlphaToCoverageEnable",
+    ): "sample_alpha_to_coverage_enable",
+    ("fx_gles2", "Gles2PassTypeStatesSampleCoverageEnable"): "sample_coverage_enable",
+    ("fx_gles2", "Gles2PassTypeStatesScissorTestEnable"): "scissor_test_enable",
+    ("fx_gles2", "Gles2PassTypeStatesStencilTestEnable"): "stencil_test_enable",
+}
+
+
+DECODERS_ProfileGles2TypeNewparam = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec2": decode_Bvec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec3": decode_Bvec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bvec4": decode_Bvec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec2": decode_Vec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec3": decode_Vec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}vec4": decode_Vec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat2": decode_Mat2,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat3": decode_Mat3,
+    "{http://www.collada.org/2008/03/COLLADASchema}mat4": decode_Mat4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec2": decode_Ivec2,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec3": decode_Ivec3,
+    "{http://www.collada.org/2008/03/COLLADASchema}ivec4": decode_Ivec4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_FxSampler2DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler3D": decode_FxSampler3DType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerCUBE": decode_FxSamplerCubeType,
+    "{http://www.collada.org/2008/03/COLLADASchema}samplerDEPTH": decode_FxSamplerDepthType,
+    "{http://www.collada.org/2008/03/COLLADASchema}usertype": decode_Gles2NewparamTypeUsertype,
+    "{http://www.collada.org/2008/03/COLLADASchema}array": decode_Gles2NewparamTypeArray,
+}
+
+
+ENCODERS_ProfileGles2TypeNewparam_choice = {
+    Bvec2: (encode_Bvec2, "bvec2"),
+    Bvec3: (encode_Bvec3, "bvec3"),
+    Bvec4: (encode_Bvec4, "bvec4"),
+    Vec2: (encode_Vec2, "vec2"),
+    Vec3: (encode_Vec3, "vec3"),
+    Vec4: (encode_Vec4, "vec4"),
+    Mat2: (encode_Mat2, "mat2"),
+    Mat3: (encode_Mat3, "mat3"),
+    Mat4: (encode_Mat4, "mat4"),
+    Ivec2: (encode_Ivec2, "ivec2"),
+    Ivec3: (encode_Ivec3, "ivec3"),
+    Ivec4: (encode_Ivec4, "ivec4"),
+    GlEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
+    Gles2NewparamTypeUsertype: (encode_Gles2NewparamTypeUsertype, "usertype"),
+    Gles2NewparamTypeArray: (encode_Gles2NewparamTypeArray, "array"),
+}
+TAGS_ProfileGles2TypeNewparam_choice = {
+    ("materials", "Bool"): "bool",
+    ("fx_gles2", "Bvec2"): "bvec2",
+    ("fx_gles2", "Bvec3"): "bvec3",
+    ("fx_gles2", "Bvec4"): "bvec4",
+    ("materials", "Float"): "float",
+    ("fx_gles2", "Vec2"): "vec2",
+    ("fx_gles2", "Vec3"): "vec3",
+    ("fx_gles2", "Vec4"): "vec4",
+    ("fx_gles2", "Mat2"): "mat2",
+    ("fx_gles2", "Mat3"): "mat3",
+    ("fx_gles2", "Mat4"): "mat4",
+    ("materials", "Int"): "int",
+    ("fx_gles2", "Ivec2"): "ivec2",
+    ("fx_gles2", "Ivec3"): "ivec3",
+    ("fx_gles2", "Ivec4"): "ivec4",
+    ("fx_common", "FxSampler2DType"): "sampler2D",
+    ("fx_common", "FxSampler3DType"): "sampler3D",
+    ("fx_common", "FxSamplerCubeType"): "samplerCUBE",
+    ("fx_common", "FxSamplerDepthType"): "samplerDEPTH",
+    ("fx_gles2", "Gles2NewparamTypeUsertype"): "usertype",
+    ("fx_gles2", "Gles2NewparamTypeArray"): "array",
+}
 
 
 ENCODERS_ProfileGles2Type_include_or_code = {}

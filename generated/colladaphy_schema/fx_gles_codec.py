@@ -3586,39 +3586,6 @@ def decode_GlesNewparamType(e):
     return o
 
 
-DECODERS_GlesNewparamType = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool2": decode_Bool2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool3": decode_Bool3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool4": decode_Bool4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}int2": decode_Int2,
-    "{http://www.collada.org/2008/03/COLLADASchema}int3": decode_Int3,
-    "{http://www.collada.org/2008/03/COLLADASchema}int4": decode_Int4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2": decode_Float2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3": decode_Float3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4": decode_Float4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float1x1": decode_Float1X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float1x2": decode_Float1X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float1x3": decode_Float1X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float1x4": decode_Float1X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x1": decode_Float2X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x2": decode_Float2X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x3": decode_Float2X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x4": decode_Float2X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x1": decode_Float3X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x2": decode_Float3X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x3": decode_Float3X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x4": decode_Float3X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x1": decode_Float4X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x2": decode_Float4X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x3": decode_Float4X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x4": decode_Float4X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_GlesSamplerType,
-}
-
-
 def encode_GlesNewparamType(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' sid="' + attribute_escaped(o.sid) + '"'
@@ -3642,47 +3609,6 @@ def encode_GlesNewparamType(o, w, tag, i):
             f = choose(ENCODERS_GlesNewparamType_choice, TAGS_GlesNewparamType_choice, x)
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_GlesNewparamType_choice = {
-    Float1X1: (encode_Float1X1, "float1x1"),
-    Float1X2: (encode_Float1X2, "float1x2"),
-    Float1X3: (encode_Float1X3, "float1x3"),
-    Float1X4: (encode_Float1X4, "float1x4"),
-    GlesSamplerType: (encode_GlesSamplerType, "sampler2D"),
-    GlesEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
-}
-TAGS_GlesNewparamType_choice = {
-    ("materials", "Bool"): "bool",
-    ("materials", "Bool2"): "bool2",
-    ("materials", "Bool3"): "bool3",
-    ("materials", "Bool4"): "bool4",
-    ("materials", "Int"): "int",
-    ("materials", "Int2"): "int2",
-    ("materials", "Int3"): "int3",
-    ("materials", "Int4"): "int4",
-    ("materials", "Float"): "float",
-    ("materials", "Float2"): "float2",
-    ("materials", "Float3"): "float3",
-    ("materials", "Float4"): "float4",
-    ("fx_gles", "Float1X1"): "float1x1",
-    ("fx_gles", "Float1X2"): "float1x2",
-    ("fx_gles", "Float1X3"): "float1x3",
-    ("fx_gles", "Float1X4"): "float1x4",
-    ("materials", "Float2X1"): "float2x1",
-    ("materials", "Float2X2"): "float2x2",
-    ("materials", "Float2X3"): "float2x3",
-    ("materials", "Float2X4"): "float2x4",
-    ("materials", "Float3X1"): "float3x1",
-    ("materials", "Float3X2"): "float3x2",
-    ("materials", "Float3X3"): "float3x3",
-    ("materials", "Float3X4"): "float3x4",
-    ("materials", "Float4X1"): "float4x1",
-    ("materials", "Float4X2"): "float4x2",
-    ("materials", "Float4X3"): "float4x3",
-    ("materials", "Float4X4"): "float4x4",
-    ("fx_gles", "GlesSamplerType"): "sampler2D",
-}
 
 
 def decode_GlesTexcombinerCommandAlphaType(e):
@@ -3999,17 +3925,6 @@ def encode_GlesTexturePipelineType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_GlesTexturePipelineType_texcombiner_or_texenv_or_extra = {
-    GlesTexcombinerCommandType: (encode_GlesTexcombinerCommandType, "texcombiner"),
-    GlesTexenvCommandType: (encode_GlesTexenvCommandType, "texenv"),
-}
-TAGS_GlesTexturePipelineType_texcombiner_or_texenv_or_extra = {
-    ("fx_gles", "GlesTexcombinerCommandType"): "texcombiner",
-    ("fx_gles", "GlesTexenvCommandType"): "texenv",
-    ("core", "ExtraType"): "extra",
-}
-
-
 def decode_ProfileGlesTypeTechniquePassStatesTexturePipeline(e):
     o = new(ProfileGlesTypeTechniquePassStatesTexturePipeline)
     v_value = None
@@ -4048,6 +3963,291 @@ def decode_ProfileGlesTypeTechniquePassStates(e):
             v_choice.append(f(c))
     o.choice = v_choice
     return o
+
+
+def encode_ProfileGlesTypeTechniquePassStates(o, w, tag, i):
+    a = f"{i}<{tag}"
+    if not (o.choice):
+        w(a + "/>")
+        return
+    w(a + ">")
+    j = i and i + "  "
+    for x in o.choice:
+        f = ENCODERS_ProfileGlesTypeTechniquePassStates_choice.get(x.__class__)
+        if f is None:
+            f = choose(
+                ENCODERS_ProfileGlesTypeTechniquePassStates_choice,
+                TAGS_ProfileGlesTypeTechniquePassStates_choice,
+                x,
+            )
+        f[0](x, w, f[1], j)
+    w(f"{i}</{tag}>")
+
+
+def decode_ProfileGlesTypeTechniquePass(e):
+    o = new(ProfileGlesTypeTechniquePass)
+    v_annotate = []
+    v_states = None
+    v_evaluate = None
+    v_extra = []
+    v_sid = None
+    for k, x in e.items():
+        if k == "sid":
+            v_sid = x.strip()
+        else:
+            attribute(e, k)
+    for c in e:
+        t = c.tag
+        if t == "{http://www.collada.org/2008/03/COLLADASchema}annotate":
+            v_annotate.append(decode_FxAnnotateType(c))
+        elif t == "{http://www.collada.org/2008/03/COLLADASchema}states":
+            v_states = decode_ProfileGlesTypeTechniquePassStates(c)
+        elif t == "{http://www.collada.org/2008/03/COLLADASchema}evaluate":
+            v_evaluate = decode_ProfileGlesTypeTechniquePassEvaluate(c)
+        elif t == "{http://www.collada.org/2008/03/COLLADASchema}extra":
+            v_extra.append(decode_ExtraType(c))
+        else:
+            unexpected(e, c)
+    o.annotate = v_annotate
+    o.states = v_states
+    o.evaluate = v_evaluate
+    o.extra = v_extra
+    o.sid = v_sid
+    return o
+
+
+def encode_ProfileGlesTypeTechniquePass(o, w, tag, i):
+    a = f"{i}<{tag}"
+    x = o.sid
+    if x is not None:
+        a += ' sid="' + attribute_escaped(x) + '"'
+    if not (o.annotate or o.states is not None or o.evaluate is not None or o.extra):
+        w(a + "/>")
+        return
+    w(a + ">")
+    j = i and i + "  "
+    for x in o.annotate:
+        encode_FxAnnotateType(x, w, "annotate", j)
+    x = o.states
+    if x is not None:
+        encode_ProfileGlesTypeTechniquePassStates(x, w, "states", j)
+    x = o.evaluate
+    if x is not None:
+        encode_ProfileGlesTypeTechniquePassEvaluate(x, w, "evaluate", j)
+    for x in o.extra:
+        encode_ExtraType(x, w, "extra", j)
+    w(f"{i}</{tag}>")
+
+
+def decode_ProfileGlesTypeTechnique(e):
+    o = new(ProfileGlesTypeTechnique)
+    v_asset = None
+    v_annotate = []
+    v_pass_value = []
+    v_extra = []
+    v_id = None
+    v_sid = REQUIRED
+    for k, x in e.items():
+        if k == "id":
+            v_id = x.strip()
+        elif k == "sid":
+            v_sid = x.strip()
+        else:
+            attribute(e, k)
+    for c in e:
+        t = c.tag
+        if t == "{http://www.collada.org/2008/03/COLLADASchema}asset":
+            v_asset = decode_AssetType(c)
+        elif t == "{http://www.collada.org/2008/03/COLLADASchema}annotate":
+            v_annotate.append(decode_FxAnnotateType(c))
+        elif t == "{http://www.collada.org/2008/03/COLLADASchema}pass":
+            v_pass_value.append(decode_ProfileGlesTypeTechniquePass(c))
+        elif t == "{http://www.collada.org/2008/03/COLLADASchema}extra":
+            v_extra.append(decode_ExtraType(c))
+        else:
+            unexpected(e, c)
+    o.asset = v_asset
+    o.annotate = v_annotate
+    o.pass_value = v_pass_value
+    o.extra = v_extra
+    o.id = v_id
+    if v_sid is REQUIRED:
+        missing(e, "sid")
+    o.sid = v_sid
+    return o
+
+
+def encode_ProfileGlesTypeTechnique(o, w, tag, i):
+    a = f"{i}<{tag}"
+    x = o.id
+    if x is not None:
+        a += ' id="' + attribute_escaped(x) + '"'
+    a += ' sid="' + attribute_escaped(o.sid) + '"'
+    if not (o.asset is not None or o.annotate or o.pass_value or o.extra):
+        w(a + "/>")
+        return
+    w(a + ">")
+    j = i and i + "  "
+    x = o.asset
+    if x is not None:
+        encode_AssetType(x, w, "asset", j)
+    for x in o.annotate:
+        encode_FxAnnotateType(x, w, "annotate", j)
+    for x in o.pass_value:
+        encode_ProfileGlesTypeTechniquePass(x, w, "pass", j)
+    for x in o.extra:
+        encode_ExtraType(x, w, "extra", j)
+    w(f"{i}</{tag}>")
+
+
+def decode_ProfileGlesType(e):
+    o = new(ProfileGlesType)
+    v_asset = None
+    v_newparam = []
+    v_technique = []
+    v_extra = []
+    v_id = None
+    v_platform = "PC"
+    stated = ()
+    for k, x in e.items():
+        if k == "id":
+            v_id = x.strip()
+        elif k == "platform":
+            v_platform = x.strip()
+            if v_platform == "PC":
+                stated += ("platform",)
+        else:
+            attribute(e, k)
+    for c in e:
+        t = c.tag
+        if t == "{http://www.collada.org/2008/03/COLLADASchema}asset":
+            v_asset = decode_AssetType(c)
+        elif t == "{http://www.collada.org/2008/03/COLLADASchema}newparam":
+            v_newparam.append(decode_GlesNewparamType(c))
+        elif t == "{http://www.collada.org/2008/03/COLLADASchema}technique":
+            v_technique.append(decode_ProfileGlesTypeTechnique(c))
+        elif t == "{http://www.collada.org/2008/03/COLLADASchema}extra":
+            v_extra.append(decode_ExtraType(c))
+        else:
+            unexpected(e, c)
+    o.asset = v_asset
+    o.newparam = v_newparam
+    o.technique = v_technique
+    o.extra = v_extra
+    o.id = v_id
+    o.platform = v_platform
+    o._stated = stated
+    return o
+
+
+def encode_ProfileGlesType(o, w, tag, i):
+    a = f"{i}<{tag}"
+    x = o.id
+    if x is not None:
+        a += ' id="' + attribute_escaped(x) + '"'
+    x = o.platform
+    if x != "PC" or "platform" in stated(o):
+        a += ' platform="' + attribute_escaped(x) + '"'
+    if not (o.asset is not None or o.newparam or o.technique or o.extra):
+        w(a + "/>")
+        return
+    w(a + ">")
+    j = i and i + "  "
+    x = o.asset
+    if x is not None:
+        encode_AssetType(x, w, "asset", j)
+    for x in o.newparam:
+        encode_GlesNewparamType(x, w, "newparam", j)
+    for x in o.technique:
+        encode_ProfileGlesTypeTechnique(x, w, "technique", j)
+    for x in o.extra:
+        encode_ExtraType(x, w, "extra", j)
+    w(f"{i}</{tag}>")
+
+
+DECODERS_GlesNewparamType = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool2": decode_Bool2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool3": decode_Bool3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool4": decode_Bool4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}int2": decode_Int2,
+    "{http://www.collada.org/2008/03/COLLADASchema}int3": decode_Int3,
+    "{http://www.collada.org/2008/03/COLLADASchema}int4": decode_Int4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2": decode_Float2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3": decode_Float3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4": decode_Float4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float1x1": decode_Float1X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float1x2": decode_Float1X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float1x3": decode_Float1X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float1x4": decode_Float1X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x1": decode_Float2X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x2": decode_Float2X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x3": decode_Float2X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x4": decode_Float2X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x1": decode_Float3X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x2": decode_Float3X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x3": decode_Float3X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x4": decode_Float3X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x1": decode_Float4X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x2": decode_Float4X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x3": decode_Float4X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x4": decode_Float4X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler2D": decode_GlesSamplerType,
+}
+
+
+ENCODERS_GlesNewparamType_choice = {
+    Float1X1: (encode_Float1X1, "float1x1"),
+    Float1X2: (encode_Float1X2, "float1x2"),
+    Float1X3: (encode_Float1X3, "float1x3"),
+    Float1X4: (encode_Float1X4, "float1x4"),
+    GlesSamplerType: (encode_GlesSamplerType, "sampler2D"),
+    GlesEnumerationType: (leaf(lambda x: text_escaped(x.value)), "enum"),
+}
+TAGS_GlesNewparamType_choice = {
+    ("materials", "Bool"): "bool",
+    ("materials", "Bool2"): "bool2",
+    ("materials", "Bool3"): "bool3",
+    ("materials", "Bool4"): "bool4",
+    ("materials", "Int"): "int",
+    ("materials", "Int2"): "int2",
+    ("materials", "Int3"): "int3",
+    ("materials", "Int4"): "int4",
+    ("materials", "Float"): "float",
+    ("materials", "Float2"): "float2",
+    ("materials", "Float3"): "float3",
+    ("materials", "Float4"): "float4",
+    ("fx_gles", "Float1X1"): "float1x1",
+    ("fx_gles", "Float1X2"): "float1x2",
+    ("fx_gles", "Float1X3"): "float1x3",
+    ("fx_gles", "Float1X4"): "float1x4",
+    ("materials", "Float2X1"): "float2x1",
+    ("materials", "Float2X2"): "float2x2",
+    ("materials", "Float2X3"): "float2x3",
+    ("materials", "Float2X4"): "float2x4",
+    ("materials", "Float3X1"): "float3x1",
+    ("materials", "Float3X2"): "float3x2",
+    ("materials", "Float3X3"): "float3x3",
+    ("materials", "Float3X4"): "float3x4",
+    ("materials", "Float4X1"): "float4x1",
+    ("materials", "Float4X2"): "float4x2",
+    ("materials", "Float4X3"): "float4x3",
+    ("materials", "Float4X4"): "float4x4",
+    ("fx_gles", "GlesSamplerType"): "sampler2D",
+}
+
+
+ENCODERS_GlesTexturePipelineType_texcombiner_or_texenv_or_extra = {
+    GlesTexcombinerCommandType: (encode_GlesTexcombinerCommandType, "texcombiner"),
+    GlesTexenvCommandType: (encode_GlesTexenvCommandType, "texenv"),
+}
+TAGS_GlesTexturePipelineType_texcombiner_or_texenv_or_extra = {
+    ("fx_gles", "GlesTexcombinerCommandType"): "texcombiner",
+    ("fx_gles", "GlesTexenvCommandType"): "texenv",
+    ("core", "ExtraType"): "extra",
+}
 
 
 DECODERS_ProfileGlesTypeTechniquePassStates = {
@@ -4121,25 +4321,6 @@ DECODERS_ProfileGlesTypeTechniquePassStates = {
     "{http://www.collada.org/2008/03/COLLADASchema}scissor_test_enable": decode_ProfileGlesTypeTechniquePassStatesScissorTestEnable,
     "{http://www.collada.org/2008/03/COLLADASchema}stencil_test_enable": decode_ProfileGlesTypeTechniquePassStatesStencilTestEnable,
 }
-
-
-def encode_ProfileGlesTypeTechniquePassStates(o, w, tag, i):
-    a = f"{i}<{tag}"
-    if not (o.choice):
-        w(a + "/>")
-        return
-    w(a + ">")
-    j = i and i + "  "
-    for x in o.choice:
-        f = ENCODERS_ProfileGlesTypeTechniquePassStates_choice.get(x.__class__)
-        if f is None:
-            f = choose(
-                ENCODERS_ProfileGlesTypeTechniquePassStates_choice,
-                TAGS_ProfileGlesTypeTechniquePassStates_choice,
-                x,
-            )
-        f[0](x, w, f[1], j)
-    w(f"{i}</{tag}>")
 
 
 ENCODERS_ProfileGlesTypeTechniquePassStates_choice = {
@@ -4518,187 +4699,6 @@ TAGS_ProfileGlesTypeTechniquePassStates_choice = {
     ("fx_gles", "ProfileGlesTypeTechniquePassStatesScissorTestEnable"): "scissor_test_enable",
     ("fx_gles", "ProfileGlesTypeTechniquePassStatesStencilTestEnable"): "stencil_test_enable",
 }
-
-
-def decode_ProfileGlesTypeTechniquePass(e):
-    o = new(ProfileGlesTypeTechniquePass)
-    v_annotate = []
-    v_states = None
-    v_evaluate = None
-    v_extra = []
-    v_sid = None
-    for k, x in e.items():
-        if k == "sid":
-            v_sid = x.strip()
-        else:
-            attribute(e, k)
-    for c in e:
-        t = c.tag
-        if t == "{http://www.collada.org/2008/03/COLLADASchema}annotate":
-            v_annotate.append(decode_FxAnnotateType(c))
-        elif t == "{http://www.collada.org/2008/03/COLLADASchema}states":
-            v_states = decode_ProfileGlesTypeTechniquePassStates(c)
-        elif t == "{http://www.collada.org/2008/03/COLLADASchema}evaluate":
-            v_evaluate = decode_ProfileGlesTypeTechniquePassEvaluate(c)
-        elif t == "{http://www.collada.org/2008/03/COLLADASchema}extra":
-            v_extra.append(decode_ExtraType(c))
-        else:
-            unexpected(e, c)
-    o.annotate = v_annotate
-    o.states = v_states
-    o.evaluate = v_evaluate
-    o.extra = v_extra
-    o.sid = v_sid
-    return o
-
-
-def encode_ProfileGlesTypeTechniquePass(o, w, tag, i):
-    a = f"{i}<{tag}"
-    x = o.sid
-    if x is not None:
-        a += ' sid="' + attribute_escaped(x) + '"'
-    if not (o.annotate or o.states is not None or o.evaluate is not None or o.extra):
-        w(a + "/>")
-        return
-    w(a + ">")
-    j = i and i + "  "
-    for x in o.annotate:
-        encode_FxAnnotateType(x, w, "annotate", j)
-    x = o.states
-    if x is not None:
-        encode_ProfileGlesTypeTechniquePassStates(x, w, "states", j)
-    x = o.evaluate
-    if x is not None:
-        encode_ProfileGlesTypeTechniquePassEvaluate(x, w, "evaluate", j)
-    for x in o.extra:
-        encode_ExtraType(x, w, "extra", j)
-    w(f"{i}</{tag}>")
-
-
-def decode_ProfileGlesTypeTechnique(e):
-    o = new(ProfileGlesTypeTechnique)
-    v_asset = None
-    v_annotate = []
-    v_pass_value = []
-    v_extra = []
-    v_id = None
-    v_sid = REQUIRED
-    for k, x in e.items():
-        if k == "id":
-            v_id = x.strip()
-        elif k == "sid":
-            v_sid = x.strip()
-        else:
-            attribute(e, k)
-    for c in e:
-        t = c.tag
-        if t == "{http://www.collada.org/2008/03/COLLADASchema}asset":
-            v_asset = decode_AssetType(c)
-        elif t == "{http://www.collada.org/2008/03/COLLADASchema}annotate":
-            v_annotate.append(decode_FxAnnotateType(c))
-        elif t == "{http://www.collada.org/2008/03/COLLADASchema}pass":
-            v_pass_value.append(decode_ProfileGlesTypeTechniquePass(c))
-        elif t == "{http://www.collada.org/2008/03/COLLADASchema}extra":
-            v_extra.append(decode_ExtraType(c))
-        else:
-            unexpected(e, c)
-    o.asset = v_asset
-    o.annotate = v_annotate
-    o.pass_value = v_pass_value
-    o.extra = v_extra
-    o.id = v_id
-    if v_sid is REQUIRED:
-        missing(e, "sid")
-    o.sid = v_sid
-    return o
-
-
-def encode_ProfileGlesTypeTechnique(o, w, tag, i):
-    a = f"{i}<{tag}"
-    x = o.id
-    if x is not None:
-        a += ' id="' + attribute_escaped(x) + '"'
-    a += ' sid="' + attribute_escaped(o.sid) + '"'
-    if not (o.asset is not None or o.annotate or o.pass_value or o.extra):
-        w(a + "/>")
-        return
-    w(a + ">")
-    j = i and i + "  "
-    x = o.asset
-    if x is not None:
-        encode_AssetType(x, w, "asset", j)
-    for x in o.annotate:
-        encode_FxAnnotateType(x, w, "annotate", j)
-    for x in o.pass_value:
-        encode_ProfileGlesTypeTechniquePass(x, w, "pass", j)
-    for x in o.extra:
-        encode_ExtraType(x, w, "extra", j)
-    w(f"{i}</{tag}>")
-
-
-def decode_ProfileGlesType(e):
-    o = new(ProfileGlesType)
-    v_asset = None
-    v_newparam = []
-    v_technique = []
-    v_extra = []
-    v_id = None
-    v_platform = "PC"
-    stated = ()
-    for k, x in e.items():
-        if k == "id":
-            v_id = x.strip()
-        elif k == "platform":
-            v_platform = x.strip()
-            if v_platform == "PC":
-                stated += ("platform",)
-        else:
-            attribute(e, k)
-    for c in e:
-        t = c.tag
-        if t == "{http://www.collada.org/2008/03/COLLADASchema}asset":
-            v_asset = decode_AssetType(c)
-        elif t == "{http://www.collada.org/2008/03/COLLADASchema}newparam":
-            v_newparam.append(decode_GlesNewparamType(c))
-        elif t == "{http://www.collada.org/2008/03/COLLADASchema}technique":
-            v_technique.append(decode_ProfileGlesTypeTechnique(c))
-        elif t == "{http://www.collada.org/2008/03/COLLADASchema}extra":
-            v_extra.append(decode_ExtraType(c))
-        else:
-            unexpected(e, c)
-    o.asset = v_asset
-    o.newparam = v_newparam
-    o.technique = v_technique
-    o.extra = v_extra
-    o.id = v_id
-    o.platform = v_platform
-    o._stated = stated
-    return o
-
-
-def encode_ProfileGlesType(o, w, tag, i):
-    a = f"{i}<{tag}"
-    x = o.id
-    if x is not None:
-        a += ' id="' + attribute_escaped(x) + '"'
-    x = o.platform
-    if x != "PC" or "platform" in stated(o):
-        a += ' platform="' + attribute_escaped(x) + '"'
-    if not (o.asset is not None or o.newparam or o.technique or o.extra):
-        w(a + "/>")
-        return
-    w(a + ">")
-    j = i and i + "  "
-    x = o.asset
-    if x is not None:
-        encode_AssetType(x, w, "asset", j)
-    for x in o.newparam:
-        encode_GlesNewparamType(x, w, "newparam", j)
-    for x in o.technique:
-        encode_ProfileGlesTypeTechnique(x, w, "technique", j)
-    for x in o.extra:
-        encode_ExtraType(x, w, "extra", j)
-    w(f"{i}</{tag}>")
 
 
 links.tables = (

@@ -996,15 +996,6 @@ def encode_PolygonsType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_PolygonsType_p_or_ph = {
-    PolygonsTypePh: (encode_PolygonsTypePh, "ph"),
-}
-TAGS_PolygonsType_p_or_ph = {
-    ("core", "PType"): "p",
-    ("geometry", "PolygonsTypePh"): "ph",
-}
-
-
 def decode_SplineType(e):
     o = new(SplineType)
     v_source = []
@@ -1166,26 +1157,6 @@ def encode_ConvexMeshType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ConvexMeshType_choice = {
-    LinesType: (encode_LinesType, "lines"),
-    LinestripsType: (encode_LinestripsType, "linestrips"),
-    PolygonsType: (encode_PolygonsType, "polygons"),
-    PolylistType: (encode_PolylistType, "polylist"),
-    TrianglesType: (encode_TrianglesType, "triangles"),
-    TrifansType: (encode_TrifansType, "trifans"),
-    TristripsType: (encode_TristripsType, "tristrips"),
-}
-TAGS_ConvexMeshType_choice = {
-    ("geometry", "LinesType"): "lines",
-    ("geometry", "LinestripsType"): "linestrips",
-    ("geometry", "PolygonsType"): "polygons",
-    ("geometry", "PolylistType"): "polylist",
-    ("geometry", "TrianglesType"): "triangles",
-    ("geometry", "TrifansType"): "trifans",
-    ("geometry", "TristripsType"): "tristrips",
-}
-
-
 def decode_MeshType(e):
     o = new(MeshType)
     v_source = []
@@ -1243,26 +1214,6 @@ def encode_MeshType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_MeshType_choice = {
-    LinesType: (encode_LinesType, "lines"),
-    LinestripsType: (encode_LinestripsType, "linestrips"),
-    PolygonsType: (encode_PolygonsType, "polygons"),
-    PolylistType: (encode_PolylistType, "polylist"),
-    TrianglesType: (encode_TrianglesType, "triangles"),
-    TrifansType: (encode_TrifansType, "trifans"),
-    TristripsType: (encode_TristripsType, "tristrips"),
-}
-TAGS_MeshType_choice = {
-    ("geometry", "LinesType"): "lines",
-    ("geometry", "LinestripsType"): "linestrips",
-    ("geometry", "PolygonsType"): "polygons",
-    ("geometry", "PolylistType"): "polylist",
-    ("geometry", "TrianglesType"): "triangles",
-    ("geometry", "TrifansType"): "trifans",
-    ("geometry", "TristripsType"): "tristrips",
-}
-
-
 def decode_InstanceGeometryType(e):
     o = new(InstanceGeometryType)
     v_bind_material = None
@@ -1317,3 +1268,52 @@ def encode_InstanceGeometryType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_PolygonsType_p_or_ph = {
+    PolygonsTypePh: (encode_PolygonsTypePh, "ph"),
+}
+TAGS_PolygonsType_p_or_ph = {
+    ("core", "PType"): "p",
+    ("geometry", "PolygonsTypePh"): "ph",
+}
+
+
+ENCODERS_ConvexMeshType_choice = {
+    LinesType: (encode_LinesType, "lines"),
+    LinestripsType: (encode_LinestripsType, "linestrips"),
+    PolygonsType: (encode_PolygonsType, "polygons"),
+    PolylistType: (encode_PolylistType, "polylist"),
+    TrianglesType: (encode_TrianglesType, "triangles"),
+    TrifansType: (encode_TrifansType, "trifans"),
+    TristripsType: (encode_TristripsType, "tristrips"),
+}
+TAGS_ConvexMeshType_choice = {
+    ("geometry", "LinesType"): "lines",
+    ("geometry", "LinestripsType"): "linestrips",
+    ("geometry", "PolygonsType"): "polygons",
+    ("geometry", "PolylistType"): "polylist",
+    ("geometry", "TrianglesType"): "triangles",
+    ("geometry", "TrifansType"): "trifans",
+    ("geometry", "TristripsType"): "tristrips",
+}
+
+
+ENCODERS_MeshType_choice = {
+    LinesType: (encode_LinesType, "lines"),
+    LinestripsType: (encode_LinestripsType, "linestrips"),
+    PolygonsType: (encode_PolygonsType, "polygons"),
+    PolylistType: (encode_PolylistType, "polylist"),
+    TrianglesType: (encode_TrianglesType, "triangles"),
+    TrifansType: (encode_TrifansType, "trifans"),
+    TristripsType: (encode_TristripsType, "tristrips"),
+}
+TAGS_MeshType_choice = {
+    ("geometry", "LinesType"): "lines",
+    ("geometry", "LinestripsType"): "linestrips",
+    ("geometry", "PolygonsType"): "polygons",
+    ("geometry", "PolylistType"): "polylist",
+    ("geometry", "TrianglesType"): "triangles",
+    ("geometry", "TrifansType"): "trifans",
+    ("geometry", "TristripsType"): "tristrips",
+}

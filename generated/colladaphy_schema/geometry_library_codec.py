@@ -98,15 +98,6 @@ def encode_GeometryType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_GeometryType_choice = {}
-TAGS_GeometryType_choice = {
-    ("geometry", "ConvexMeshType"): "convex_mesh",
-    ("geometry", "MeshType"): "mesh",
-    ("geometry", "SplineType"): "spline",
-    ("brep", "BrepType"): "brep",
-}
-
-
 def decode_LibraryGeometriesType(e):
     o = new(LibraryGeometriesType)
     v_asset = None
@@ -160,3 +151,12 @@ def encode_LibraryGeometriesType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_GeometryType_choice = {}
+TAGS_GeometryType_choice = {
+    ("geometry", "ConvexMeshType"): "convex_mesh",
+    ("geometry", "MeshType"): "mesh",
+    ("geometry", "SplineType"): "spline",
+    ("brep", "BrepType"): "brep",
+}

@@ -383,15 +383,6 @@ def encode_ImageSourceType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ImageSourceType_ref_or_hex = {
-    str: (leaf(lambda x: text_escaped(x)), "ref"),
-    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
-}
-TAGS_ImageSourceType_ref_or_hex = {
-    ("images", "ImageSourceTypeHex"): "hex",
-}
-
-
 def decode_ImageTypeCreate2DFormatHint(e):
     o = new(ImageTypeCreate2DFormatHint)
     v_channels = REQUIRED
@@ -652,15 +643,6 @@ def encode_ImageTypeCreate2DInitFrom(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ImageTypeCreate2DInitFrom_ref_or_hex = {
-    str: (leaf(lambda x: text_escaped(x)), "ref"),
-    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
-}
-TAGS_ImageTypeCreate2DInitFrom_ref_or_hex = {
-    ("images", "ImageSourceTypeHex"): "hex",
-}
-
-
 def decode_ImageTypeCreate3DFormat(e):
     o = new(ImageTypeCreate3DFormat)
     v_hint = REQUIRED
@@ -755,15 +737,6 @@ def encode_ImageTypeCreate3DInitFrom(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_ImageTypeCreate3DInitFrom_ref_or_hex = {
-    str: (leaf(lambda x: text_escaped(x)), "ref"),
-    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
-}
-TAGS_ImageTypeCreate3DInitFrom_ref_or_hex = {
-    ("images", "ImageSourceTypeHex"): "hex",
-}
 
 
 def decode_ImageTypeCreateCubeFormat(e):
@@ -862,15 +835,6 @@ def encode_ImageTypeCreateCubeInitFrom(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ImageTypeCreateCubeInitFrom_ref_or_hex = {
-    str: (leaf(lambda x: text_escaped(x)), "ref"),
-    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
-}
-TAGS_ImageTypeCreateCubeInitFrom_ref_or_hex = {
-    ("images", "ImageSourceTypeHex"): "hex",
-}
-
-
 def decode_ImageTypeInitFrom(e):
     o = new(ImageTypeInitFrom)
     v_ref_or_hex = None
@@ -915,15 +879,6 @@ def encode_ImageTypeInitFrom(o, w, tag, i):
             f = choose(ENCODERS_ImageTypeInitFrom_ref_or_hex, TAGS_ImageTypeInitFrom_ref_or_hex, x)
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_ImageTypeInitFrom_ref_or_hex = {
-    str: (leaf(lambda x: text_escaped(x)), "ref"),
-    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
-}
-TAGS_ImageTypeInitFrom_ref_or_hex = {
-    ("images", "ImageSourceTypeHex"): "hex",
-}
 
 
 def decode_ImageTypeCreate2D(e):
@@ -1001,25 +956,6 @@ def encode_ImageTypeCreate2D(o, w, tag, i):
     for x in o.init_from:
         encode_ImageTypeCreate2DInitFrom(x, w, "init_from", j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_ImageTypeCreate2D_size_exact_or_size_ratio = {
-    ImageTypeCreate2DSizeExact: (encode_ImageTypeCreate2DSizeExact, "size_exact"),
-    ImageTypeCreate2DSizeRatio: (encode_ImageTypeCreate2DSizeRatio, "size_ratio"),
-}
-TAGS_ImageTypeCreate2D_size_exact_or_size_ratio = {
-    ("images", "ImageTypeCreate2DSizeExact"): "size_exact",
-    ("images", "ImageTypeCreate2DSizeRatio"): "size_ratio",
-}
-
-
-ENCODERS_ImageTypeCreate2D_mips_or_unnormalized = {
-    ImageMipsType: (encode_ImageMipsType, "mips"),
-    AnyElement: (write_generic, "unnormalized"),
-}
-TAGS_ImageTypeCreate2D_mips_or_unnormalized = {
-    ("images", "ImageMipsType"): "mips",
-}
 
 
 def decode_ImageTypeCreate3D(e):
@@ -1205,20 +1141,6 @@ def encode_ImageType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ImageType_choice = {
-    ImageTypeInitFrom: (encode_ImageTypeInitFrom, "init_from"),
-    ImageTypeCreate2D: (encode_ImageTypeCreate2D, "create_2d"),
-    ImageTypeCreate3D: (encode_ImageTypeCreate3D, "create_3d"),
-    ImageTypeCreateCube: (encode_ImageTypeCreateCube, "create_cube"),
-}
-TAGS_ImageType_choice = {
-    ("images", "ImageTypeInitFrom"): "init_from",
-    ("images", "ImageTypeCreate2D"): "create_2d",
-    ("images", "ImageTypeCreate3D"): "create_3d",
-    ("images", "ImageTypeCreateCube"): "create_cube",
-}
-
-
 def decode_LibraryImagesType(e):
     o = new(LibraryImagesType)
     v_asset = None
@@ -1272,3 +1194,81 @@ def encode_LibraryImagesType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_ImageSourceType_ref_or_hex = {
+    str: (leaf(lambda x: text_escaped(x)), "ref"),
+    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
+}
+TAGS_ImageSourceType_ref_or_hex = {
+    ("images", "ImageSourceTypeHex"): "hex",
+}
+
+
+ENCODERS_ImageTypeCreate2DInitFrom_ref_or_hex = {
+    str: (leaf(lambda x: text_escaped(x)), "ref"),
+    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
+}
+TAGS_ImageTypeCreate2DInitFrom_ref_or_hex = {
+    ("images", "ImageSourceTypeHex"): "hex",
+}
+
+
+ENCODERS_ImageTypeCreate3DInitFrom_ref_or_hex = {
+    str: (leaf(lambda x: text_escaped(x)), "ref"),
+    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
+}
+TAGS_ImageTypeCreate3DInitFrom_ref_or_hex = {
+    ("images", "ImageSourceTypeHex"): "hex",
+}
+
+
+ENCODERS_ImageTypeCreateCubeInitFrom_ref_or_hex = {
+    str: (leaf(lambda x: text_escaped(x)), "ref"),
+    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
+}
+TAGS_ImageTypeCreateCubeInitFrom_ref_or_hex = {
+    ("images", "ImageSourceTypeHex"): "hex",
+}
+
+
+ENCODERS_ImageTypeInitFrom_ref_or_hex = {
+    str: (leaf(lambda x: text_escaped(x)), "ref"),
+    ImageSourceTypeHex: (encode_ImageSourceTypeHex, "hex"),
+}
+TAGS_ImageTypeInitFrom_ref_or_hex = {
+    ("images", "ImageSourceTypeHex"): "hex",
+}
+
+
+ENCODERS_ImageTypeCreate2D_size_exact_or_size_ratio = {
+    ImageTypeCreate2DSizeExact: (encode_ImageTypeCreate2DSizeExact, "size_exact"),
+    ImageTypeCreate2DSizeRatio: (encode_ImageTypeCreate2DSizeRatio, "size_ratio"),
+}
+TAGS_ImageTypeCreate2D_size_exact_or_size_ratio = {
+    ("images", "ImageTypeCreate2DSizeExact"): "size_exact",
+    ("images", "ImageTypeCreate2DSizeRatio"): "size_ratio",
+}
+
+
+ENCODERS_ImageTypeCreate2D_mips_or_unnormalized = {
+    ImageMipsType: (encode_ImageMipsType, "mips"),
+    AnyElement: (write_generic, "unnormalized"),
+}
+TAGS_ImageTypeCreate2D_mips_or_unnormalized = {
+    ("images", "ImageMipsType"): "mips",
+}
+
+
+ENCODERS_ImageType_choice = {
+    ImageTypeInitFrom: (encode_ImageTypeInitFrom, "init_from"),
+    ImageTypeCreate2D: (encode_ImageTypeCreate2D, "create_2d"),
+    ImageTypeCreate3D: (encode_ImageTypeCreate3D, "create_3d"),
+    ImageTypeCreateCube: (encode_ImageTypeCreateCube, "create_cube"),
+}
+TAGS_ImageType_choice = {
+    ("images", "ImageTypeInitFrom"): "init_from",
+    ("images", "ImageTypeCreate2D"): "create_2d",
+    ("images", "ImageTypeCreate3D"): "create_3d",
+    ("images", "ImageTypeCreateCube"): "create_cube",
+}

@@ -116,13 +116,6 @@ def encode_KinematicsFrameType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_KinematicsFrameType_translate_or_rotate = {}
-TAGS_KinematicsFrameType_translate_or_rotate = {
-    ("core", "TranslateType"): "translate",
-    ("core", "RotateType"): "rotate",
-}
-
-
 def decode_KinematicsParamType(e):
     o = new(KinematicsParamType)
     v_ref = REQUIRED
@@ -194,17 +187,6 @@ def encode_KinematicsSetparamType(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_KinematicsSetparamType_choice = {
-    float: (leaf(lambda x: number_text(x)), "float"),
-    int: (leaf(lambda x: integer_text(x)), "int"),
-    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
-    bool: (leaf(lambda x: boolean_text(x)), "bool"),
-}
-TAGS_KinematicsSetparamType_choice = {
-    ("parameters", "KinematicsConnectParamType"): "connect_param",
-}
 
 
 def decode_BindJointAxisType(e):
@@ -295,14 +277,6 @@ def encode_BindKinematicsModelType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_BindKinematicsModelType_sidref_or_param = {
-    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
-}
-TAGS_BindKinematicsModelType_sidref_or_param = {
-    ("parameters", "CommonParamType"): "param",
-}
-
-
 def decode_KinematicsBindType(e):
     o = new(KinematicsBindType)
     v_choice = None
@@ -354,18 +328,6 @@ def encode_KinematicsBindType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_KinematicsBindType_choice = {
-    KinematicsParamType: (encode_KinematicsParamType, "param"),
-    bool: (leaf(lambda x: boolean_text(x)), "bool"),
-    float: (leaf(lambda x: number_text(x)), "float"),
-    int: (leaf(lambda x: integer_text(x)), "int"),
-    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
-}
-TAGS_KinematicsBindType_choice = {
-    ("kinematics", "KinematicsParamType"): "param",
-}
-
-
 def decode_KinematicsIndexType(e):
     o = new(KinematicsIndexType)
     v_int_or_param = None
@@ -408,14 +370,6 @@ def encode_KinematicsIndexType(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_KinematicsIndexType_int_or_param = {
-    int: (leaf(lambda x: integer_text(x)), "int"),
-}
-TAGS_KinematicsIndexType_int_or_param = {
-    ("parameters", "CommonParamType"): "param",
-}
 
 
 def decode_KinematicsLimitsType(e):
@@ -767,13 +721,6 @@ def encode_KinematicsAxisInfoType(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_KinematicsAxisInfoType_formula_or_instance_formula = {}
-TAGS_KinematicsAxisInfoType_formula_or_instance_formula = {
-    ("formulas", "FormulaType"): "formula",
-    ("formulas", "InstanceFormulaType"): "instance_formula",
-}
 
 
 def decode_MotionAxisInfoType(e):
@@ -1319,16 +1266,6 @@ def encode_ArticulatedSystemType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ArticulatedSystemType_kinematics_or_motion = {
-    KinematicsType: (encode_KinematicsType, "kinematics"),
-    MotionType: (encode_MotionType, "motion"),
-}
-TAGS_ArticulatedSystemType_kinematics_or_motion = {
-    ("kinematics", "KinematicsType"): "kinematics",
-    ("kinematics", "MotionType"): "motion",
-}
-
-
 def decode_LibraryArticulatedSystemsType(e):
     o = new(LibraryArticulatedSystemsType)
     v_asset = None
@@ -1382,3 +1319,66 @@ def encode_LibraryArticulatedSystemsType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_KinematicsFrameType_translate_or_rotate = {}
+TAGS_KinematicsFrameType_translate_or_rotate = {
+    ("core", "TranslateType"): "translate",
+    ("core", "RotateType"): "rotate",
+}
+
+
+ENCODERS_KinematicsSetparamType_choice = {
+    float: (leaf(lambda x: number_text(x)), "float"),
+    int: (leaf(lambda x: integer_text(x)), "int"),
+    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
+    bool: (leaf(lambda x: boolean_text(x)), "bool"),
+}
+TAGS_KinematicsSetparamType_choice = {
+    ("parameters", "KinematicsConnectParamType"): "connect_param",
+}
+
+
+ENCODERS_BindKinematicsModelType_sidref_or_param = {
+    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
+}
+TAGS_BindKinematicsModelType_sidref_or_param = {
+    ("parameters", "CommonParamType"): "param",
+}
+
+
+ENCODERS_KinematicsBindType_choice = {
+    KinematicsParamType: (encode_KinematicsParamType, "param"),
+    bool: (leaf(lambda x: boolean_text(x)), "bool"),
+    float: (leaf(lambda x: number_text(x)), "float"),
+    int: (leaf(lambda x: integer_text(x)), "int"),
+    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
+}
+TAGS_KinematicsBindType_choice = {
+    ("kinematics", "KinematicsParamType"): "param",
+}
+
+
+ENCODERS_KinematicsIndexType_int_or_param = {
+    int: (leaf(lambda x: integer_text(x)), "int"),
+}
+TAGS_KinematicsIndexType_int_or_param = {
+    ("parameters", "CommonParamType"): "param",
+}
+
+
+ENCODERS_KinematicsAxisInfoType_formula_or_instance_formula = {}
+TAGS_KinematicsAxisInfoType_formula_or_instance_formula = {
+    ("formulas", "FormulaType"): "formula",
+    ("formulas", "InstanceFormulaType"): "instance_formula",
+}
+
+
+ENCODERS_ArticulatedSystemType_kinematics_or_motion = {
+    KinematicsType: (encode_KinematicsType, "kinematics"),
+    MotionType: (encode_MotionType, "motion"),
+}
+TAGS_ArticulatedSystemType_kinematics_or_motion = {
+    ("kinematics", "KinematicsType"): "kinematics",
+    ("kinematics", "MotionType"): "motion",
+}

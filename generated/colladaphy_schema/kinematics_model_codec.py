@@ -147,15 +147,6 @@ def encode_KinematicsNewparamType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_KinematicsNewparamType_choice = {
-    float: (leaf(lambda x: number_text(x)), "float"),
-    int: (leaf(lambda x: integer_text(x)), "int"),
-    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
-    bool: (leaf(lambda x: boolean_text(x)), "bool"),
-}
-TAGS_KinematicsNewparamType_choice = {}
-
-
 def decode_LimitsSubType(e, empty=""):
     o = new(LimitsSubType)
     v_sid = None
@@ -225,13 +216,6 @@ def encode_LinkTypeAttachmentEnd(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_LinkTypeAttachmentEnd_rotate_or_translate = {}
-TAGS_LinkTypeAttachmentEnd_rotate_or_translate = {
-    ("core", "RotateType"): "rotate",
-    ("core", "TranslateType"): "translate",
-}
-
-
 def decode_LinkTypeAttachmentStart(e):
     o = new(LinkTypeAttachmentStart)
     v_rotate_or_translate = []
@@ -274,13 +258,6 @@ def encode_LinkTypeAttachmentStart(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_LinkTypeAttachmentStart_rotate_or_translate = {}
-TAGS_LinkTypeAttachmentStart_rotate_or_translate = {
-    ("core", "RotateType"): "rotate",
-    ("core", "TranslateType"): "translate",
-}
 
 
 def decode_MinmaxType(e, empty=""):
@@ -456,25 +433,6 @@ def encode_LinkType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_LinkType_rotate_or_translate = {}
-TAGS_LinkType_rotate_or_translate = {
-    ("core", "RotateType"): "rotate",
-    ("core", "TranslateType"): "translate",
-}
-
-
-ENCODERS_LinkType_attachment_full_or_attachment_start_or_attachment_end = {
-    LinkTypeAttachmentFull: (encode_LinkTypeAttachmentFull, "attachment_full"),
-    LinkTypeAttachmentStart: (encode_LinkTypeAttachmentStart, "attachment_start"),
-    LinkTypeAttachmentEnd: (encode_LinkTypeAttachmentEnd, "attachment_end"),
-}
-TAGS_LinkType_attachment_full_or_attachment_start_or_attachment_end = {
-    ("kinematics_model", "LinkTypeAttachmentFull"): "attachment_full",
-    ("kinematics_model", "LinkTypeAttachmentStart"): "attachment_start",
-    ("kinematics_model", "LinkTypeAttachmentEnd"): "attachment_end",
-}
-
-
 def decode_AxisConstraintType(e):
     o = new(AxisConstraintType)
     v_axis = REQUIRED
@@ -563,13 +521,6 @@ def encode_LinkTypeAttachmentFull(o, w, tag, i):
     x = o.link
     encode_LinkType(x, w, "link", j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_LinkTypeAttachmentFull_rotate_or_translate = {}
-TAGS_LinkTypeAttachmentFull_rotate_or_translate = {
-    ("core", "RotateType"): "rotate",
-    ("core", "TranslateType"): "translate",
-}
 
 
 def decode_Prismatic(e):
@@ -716,16 +667,6 @@ def encode_JointType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_JointType_prismatic_or_revolute = {
-    Prismatic: (encode_Prismatic, "prismatic"),
-    Revolute: (encode_Revolute, "revolute"),
-}
-TAGS_JointType_prismatic_or_revolute = {
-    ("kinematics_model", "Prismatic"): "prismatic",
-    ("kinematics_model", "Revolute"): "revolute",
-}
-
-
 def decode_KinematicsModelTechniqueType(e):
     o = new(KinematicsModelTechniqueType)
     v_newparam = []
@@ -785,23 +726,6 @@ def encode_KinematicsModelTechniqueType(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_KinematicsModelTechniqueType_instance_joint_or_joint = {
-    InstanceJointType: (encode_InstanceJointType, "instance_joint"),
-    JointType: (encode_JointType, "joint"),
-}
-TAGS_KinematicsModelTechniqueType_instance_joint_or_joint = {
-    ("kinematics_model", "InstanceJointType"): "instance_joint",
-    ("kinematics_model", "JointType"): "joint",
-}
-
-
-ENCODERS_KinematicsModelTechniqueType_formula_or_instance_formula = {}
-TAGS_KinematicsModelTechniqueType_formula_or_instance_formula = {
-    ("formulas", "FormulaType"): "formula",
-    ("formulas", "InstanceFormulaType"): "instance_formula",
-}
 
 
 def decode_LibraryJointsType(e):
@@ -972,3 +896,79 @@ def encode_LibraryKinematicsModelsType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_KinematicsNewparamType_choice = {
+    float: (leaf(lambda x: number_text(x)), "float"),
+    int: (leaf(lambda x: integer_text(x)), "int"),
+    str: (leaf(lambda x: text_escaped(x)), "SIDREF"),
+    bool: (leaf(lambda x: boolean_text(x)), "bool"),
+}
+TAGS_KinematicsNewparamType_choice = {}
+
+
+ENCODERS_LinkTypeAttachmentEnd_rotate_or_translate = {}
+TAGS_LinkTypeAttachmentEnd_rotate_or_translate = {
+    ("core", "RotateType"): "rotate",
+    ("core", "TranslateType"): "translate",
+}
+
+
+ENCODERS_LinkTypeAttachmentStart_rotate_or_translate = {}
+TAGS_LinkTypeAttachmentStart_rotate_or_translate = {
+    ("core", "RotateType"): "rotate",
+    ("core", "TranslateType"): "translate",
+}
+
+
+ENCODERS_LinkType_rotate_or_translate = {}
+TAGS_LinkType_rotate_or_translate = {
+    ("core", "RotateType"): "rotate",
+    ("core", "TranslateType"): "translate",
+}
+
+
+ENCODERS_LinkType_attachment_full_or_attachment_start_or_attachment_end = {
+    LinkTypeAttachmentFull: (encode_LinkTypeAttachmentFull, "attachment_full"),
+    LinkTypeAttachmentStart: (encode_LinkTypeAttachmentStart, "attachment_start"),
+    LinkTypeAttachmentEnd: (encode_LinkTypeAttachmentEnd, "attachment_end"),
+}
+TAGS_LinkType_attachment_full_or_attachment_start_or_attachment_end = {
+    ("kinematics_model", "LinkTypeAttachmentFull"): "attachment_full",
+    ("kinematics_model", "LinkTypeAttachmentStart"): "attachment_start",
+    ("kinematics_model", "LinkTypeAttachmentEnd"): "attachment_end",
+}
+
+
+ENCODERS_LinkTypeAttachmentFull_rotate_or_translate = {}
+TAGS_LinkTypeAttachmentFull_rotate_or_translate = {
+    ("core", "RotateType"): "rotate",
+    ("core", "TranslateType"): "translate",
+}
+
+
+ENCODERS_JointType_prismatic_or_revolute = {
+    Prismatic: (encode_Prismatic, "prismatic"),
+    Revolute: (encode_Revolute, "revolute"),
+}
+TAGS_JointType_prismatic_or_revolute = {
+    ("kinematics_model", "Prismatic"): "prismatic",
+    ("kinematics_model", "Revolute"): "revolute",
+}
+
+
+ENCODERS_KinematicsModelTechniqueType_instance_joint_or_joint = {
+    InstanceJointType: (encode_InstanceJointType, "instance_joint"),
+    JointType: (encode_JointType, "joint"),
+}
+TAGS_KinematicsModelTechniqueType_instance_joint_or_joint = {
+    ("kinematics_model", "InstanceJointType"): "instance_joint",
+    ("kinematics_model", "JointType"): "joint",
+}
+
+
+ENCODERS_KinematicsModelTechniqueType_formula_or_instance_formula = {}
+TAGS_KinematicsModelTechniqueType_formula_or_instance_formula = {
+    ("formulas", "FormulaType"): "formula",
+    ("formulas", "InstanceFormulaType"): "instance_formula",
+}

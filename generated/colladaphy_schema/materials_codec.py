@@ -703,36 +703,6 @@ def decode_InstanceEffectTypeSetparam(e):
     return o
 
 
-DECODERS_InstanceEffectTypeSetparam = {
-    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool2": decode_Bool2,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool3": decode_Bool3,
-    "{http://www.collada.org/2008/03/COLLADASchema}bool4": decode_Bool4,
-    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
-    "{http://www.collada.org/2008/03/COLLADASchema}int2": decode_Int2,
-    "{http://www.collada.org/2008/03/COLLADASchema}int3": decode_Int3,
-    "{http://www.collada.org/2008/03/COLLADASchema}int4": decode_Int4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2": decode_Float2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3": decode_Float3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4": decode_Float4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x1": decode_Float2X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x2": decode_Float2X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x3": decode_Float2X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float2x4": decode_Float2X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x1": decode_Float3X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x2": decode_Float3X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x3": decode_Float3X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float3x4": decode_Float3X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x1": decode_Float4X1,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x2": decode_Float4X2,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x3": decode_Float4X3,
-    "{http://www.collada.org/2008/03/COLLADASchema}float4x4": decode_Float4X4,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler_image": decode_InstanceImageType,
-    "{http://www.collada.org/2008/03/COLLADASchema}sampler_states": decode_InstanceEffectTypeSetparamSamplerStates,
-}
-
-
 def encode_InstanceEffectTypeSetparam(o, w, tag, i):
     a = f"{i}<{tag}"
     a += ' ref="' + attribute_escaped(o.ref) + '"'
@@ -752,67 +722,6 @@ def encode_InstanceEffectTypeSetparam(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_InstanceEffectTypeSetparam_choice = {
-    Bool: (encode_Bool, "bool"),
-    Bool2: (encode_Bool2, "bool2"),
-    Bool3: (encode_Bool3, "bool3"),
-    Bool4: (encode_Bool4, "bool4"),
-    Int: (encode_Int, "int"),
-    Int2: (encode_Int2, "int2"),
-    Int3: (encode_Int3, "int3"),
-    Int4: (encode_Int4, "int4"),
-    Float: (encode_Float, "float"),
-    Float2: (encode_Float2, "float2"),
-    Float3: (encode_Float3, "float3"),
-    Float4: (encode_Float4, "float4"),
-    Float2X1: (encode_Float2X1, "float2x1"),
-    Float2X2: (encode_Float2X2, "float2x2"),
-    Float2X3: (encode_Float2X3, "float2x3"),
-    Float2X4: (encode_Float2X4, "float2x4"),
-    Float3X1: (encode_Float3X1, "float3x1"),
-    Float3X2: (encode_Float3X2, "float3x2"),
-    Float3X3: (encode_Float3X3, "float3x3"),
-    Float3X4: (encode_Float3X4, "float3x4"),
-    Float4X1: (encode_Float4X1, "float4x1"),
-    Float4X2: (encode_Float4X2, "float4x2"),
-    Float4X3: (encode_Float4X3, "float4x3"),
-    Float4X4: (encode_Float4X4, "float4x4"),
-    str: (leaf(lambda x: text_escaped(x)), "enum"),
-    InstanceEffectTypeSetparamSamplerStates: (
-        encode_InstanceEffectTypeSetparamSamplerStates,
-        "sampler_states",
-    ),
-}
-TAGS_InstanceEffectTypeSetparam_choice = {
-    ("materials", "Bool"): "bool",
-    ("materials", "Bool2"): "bool2",
-    ("materials", "Bool3"): "bool3",
-    ("materials", "Bool4"): "bool4",
-    ("materials", "Int"): "int",
-    ("materials", "Int2"): "int2",
-    ("materials", "Int3"): "int3",
-    ("materials", "Int4"): "int4",
-    ("materials", "Float"): "float",
-    ("materials", "Float2"): "float2",
-    ("materials", "Float3"): "float3",
-    ("materials", "Float4"): "float4",
-    ("materials", "Float2X1"): "float2x1",
-    ("materials", "Float2X2"): "float2x2",
-    ("materials", "Float2X3"): "float2x3",
-    ("materials", "Float2X4"): "float2x4",
-    ("materials", "Float3X1"): "float3x1",
-    ("materials", "Float3X2"): "float3x2",
-    ("materials", "Float3X3"): "float3x3",
-    ("materials", "Float3X4"): "float3x4",
-    ("materials", "Float4X1"): "float4x1",
-    ("materials", "Float4X2"): "float4x2",
-    ("materials", "Float4X3"): "float4x3",
-    ("materials", "Float4X4"): "float4x4",
-    ("images", "InstanceImageType"): "sampler_image",
-    ("materials", "InstanceEffectTypeSetparamSamplerStates"): "sampler_states",
-}
 
 
 def decode_InstanceEffectType(e):
@@ -983,6 +892,97 @@ def encode_LibraryMaterialsType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+DECODERS_InstanceEffectTypeSetparam = {
+    "{http://www.collada.org/2008/03/COLLADASchema}bool": decode_Bool,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool2": decode_Bool2,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool3": decode_Bool3,
+    "{http://www.collada.org/2008/03/COLLADASchema}bool4": decode_Bool4,
+    "{http://www.collada.org/2008/03/COLLADASchema}int": decode_Int,
+    "{http://www.collada.org/2008/03/COLLADASchema}int2": decode_Int2,
+    "{http://www.collada.org/2008/03/COLLADASchema}int3": decode_Int3,
+    "{http://www.collada.org/2008/03/COLLADASchema}int4": decode_Int4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float": decode_Float,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2": decode_Float2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3": decode_Float3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4": decode_Float4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x1": decode_Float2X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x2": decode_Float2X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x3": decode_Float2X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float2x4": decode_Float2X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x1": decode_Float3X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x2": decode_Float3X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x3": decode_Float3X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float3x4": decode_Float3X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x1": decode_Float4X1,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x2": decode_Float4X2,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x3": decode_Float4X3,
+    "{http://www.collada.org/2008/03/COLLADASchema}float4x4": decode_Float4X4,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler_image": decode_InstanceImageType,
+    "{http://www.collada.org/2008/03/COLLADASchema}sampler_states": decode_InstanceEffectTypeSetparamSamplerStates,
+}
+
+
+ENCODERS_InstanceEffectTypeSetparam_choice = {
+    Bool: (encode_Bool, "bool"),
+    Bool2: (encode_Bool2, "bool2"),
+    Bool3: (encode_Bool3, "bool3"),
+    Bool4: (encode_Bool4, "bool4"),
+    Int: (encode_Int, "int"),
+    Int2: (encode_Int2, "int2"),
+    Int3: (encode_Int3, "int3"),
+    Int4: (encode_Int4, "int4"),
+    Float: (encode_Float, "float"),
+    Float2: (encode_Float2, "float2"),
+    Float3: (encode_Float3, "float3"),
+    Float4: (encode_Float4, "float4"),
+    Float2X1: (encode_Float2X1, "float2x1"),
+    Float2X2: (encode_Float2X2, "float2x2"),
+    Float2X3: (encode_Float2X3, "float2x3"),
+    Float2X4: (encode_Float2X4, "float2x4"),
+    Float3X1: (encode_Float3X1, "float3x1"),
+    Float3X2: (encode_Float3X2, "float3x2"),
+    Float3X3: (encode_Float3X3, "float3x3"),
+    Float3X4: (encode_Float3X4, "float3x4"),
+    Float4X1: (encode_Float4X1, "float4x1"),
+    Float4X2: (encode_Float4X2, "float4x2"),
+    Float4X3: (encode_Float4X3, "float4x3"),
+    Float4X4: (encode_Float4X4, "float4x4"),
+    str: (leaf(lambda x: text_escaped(x)), "enum"),
+    InstanceEffectTypeSetparamSamplerStates: (
+        encode_InstanceEffectTypeSetparamSamplerStates,
+        "sampler_states",
+    ),
+}
+TAGS_InstanceEffectTypeSetparam_choice = {
+    ("materials", "Bool"): "bool",
+    ("materials", "Bool2"): "bool2",
+    ("materials", "Bool3"): "bool3",
+    ("materials", "Bool4"): "bool4",
+    ("materials", "Int"): "int",
+    ("materials", "Int2"): "int2",
+    ("materials", "Int3"): "int3",
+    ("materials", "Int4"): "int4",
+    ("materials", "Float"): "float",
+    ("materials", "Float2"): "float2",
+    ("materials", "Float3"): "float3",
+    ("materials", "Float4"): "float4",
+    ("materials", "Float2X1"): "float2x1",
+    ("materials", "Float2X2"): "float2x2",
+    ("materials", "Float2X3"): "float2x3",
+    ("materials", "Float2X4"): "float2x4",
+    ("materials", "Float3X1"): "float3x1",
+    ("materials", "Float3X2"): "float3x2",
+    ("materials", "Float3X3"): "float3x3",
+    ("materials", "Float3X4"): "float3x4",
+    ("materials", "Float4X1"): "float4x1",
+    ("materials", "Float4X2"): "float4x2",
+    ("materials", "Float4X3"): "float4x3",
+    ("materials", "Float4X4"): "float4x4",
+    ("images", "InstanceImageType"): "sampler_image",
+    ("materials", "InstanceEffectTypeSetparamSamplerStates"): "sampler_states",
+}
 
 
 links.tables = (DECODERS_InstanceEffectTypeSetparam,)

@@ -10,9 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from lxml.etree import Comment as _comment
-from lxml.etree import ProcessingInstruction as _instruction
-from lxml.etree import _Element, _ProcessingInstruction
+from lxml.etree import _Comment, _Element, _ProcessingInstruction
 
 from colladaphy_schema.errors import CodecError, reject
 from colladaphy_schema.lexical import attribute_escaped, text_escaped
@@ -62,9 +60,9 @@ Node = AnyElement | Comment | ProcessingInstruction
 def read_node(element: _Element, outer: Scope | None = None, *, tail: bool = True) -> Node:
     """An lxml node as a generic node; `outer` is the scope of its parent, None at the top."""
     after = element.tail if tail else None
-    if element.tag is _comment:
+    if isinstance(element, _Comment):
         return Comment(text=element.text or "", tail=after)
-    if isinstance(element, _ProcessingInstruction) or element.tag is _instruction:
+    if isinstance(element, _ProcessingInstruction):
         return ProcessingInstruction(target=element.target or "", text=element.text, tail=after)
     if not isinstance(element.tag, str):
         reject(element, "an entity reference cannot be kept")

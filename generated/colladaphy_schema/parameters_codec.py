@@ -122,15 +122,6 @@ def encode_CommonBoolOrParamType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_CommonBoolOrParamType_bool_or_param = {
-    bool: (leaf(lambda x: boolean_text(x)), "bool"),
-    CommonParamType: (encode_CommonParamType, "param"),
-}
-TAGS_CommonBoolOrParamType_bool_or_param = {
-    ("parameters", "CommonParamType"): "param",
-}
-
-
 def decode_CommonFloat2OrParamType(e):
     o = new(CommonFloat2OrParamType)
     v_float2_or_param = None
@@ -169,15 +160,6 @@ def encode_CommonFloat2OrParamType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_CommonFloat2OrParamType_float2_or_param = {
-    list: (leaf(lambda x: numbers_text(x)), "float2"),
-    CommonParamType: (encode_CommonParamType, "param"),
-}
-TAGS_CommonFloat2OrParamType_float2_or_param = {
-    ("parameters", "CommonParamType"): "param",
-}
-
-
 def decode_CommonFloatOrParamType(e):
     o = new(CommonFloatOrParamType)
     v_float_or_param = None
@@ -212,15 +194,6 @@ def encode_CommonFloatOrParamType(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_CommonFloatOrParamType_float_or_param = {
-    float: (leaf(lambda x: number_text(x)), "float"),
-    CommonParamType: (encode_CommonParamType, "param"),
-}
-TAGS_CommonFloatOrParamType_float_or_param = {
-    ("parameters", "CommonParamType"): "param",
-}
 
 
 DERIVED_CommonIntOrParamType = {
@@ -276,15 +249,6 @@ def encode_CommonIntOrParamType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_CommonIntOrParamType_int_or_param = {
-    int: (leaf(lambda x: integer_text(x)), "int"),
-    CommonParamType: (encode_CommonParamType, "param"),
-}
-TAGS_CommonIntOrParamType_int_or_param = {
-    ("parameters", "CommonParamType"): "param",
-}
-
-
 DERIVED_CommonSidrefOrParamType = {
     "{http://www.collada.org/2008/03/COLLADASchema}common_sidref_or_param_type": ("", ""),
     "{http://www.collada.org/2008/03/COLLADASchema}bind_kinematics_model_type": (
@@ -336,6 +300,42 @@ def encode_CommonSidrefOrParamType(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_CommonBoolOrParamType_bool_or_param = {
+    bool: (leaf(lambda x: boolean_text(x)), "bool"),
+    CommonParamType: (encode_CommonParamType, "param"),
+}
+TAGS_CommonBoolOrParamType_bool_or_param = {
+    ("parameters", "CommonParamType"): "param",
+}
+
+
+ENCODERS_CommonFloat2OrParamType_float2_or_param = {
+    list: (leaf(lambda x: numbers_text(x)), "float2"),
+    CommonParamType: (encode_CommonParamType, "param"),
+}
+TAGS_CommonFloat2OrParamType_float2_or_param = {
+    ("parameters", "CommonParamType"): "param",
+}
+
+
+ENCODERS_CommonFloatOrParamType_float_or_param = {
+    float: (leaf(lambda x: number_text(x)), "float"),
+    CommonParamType: (encode_CommonParamType, "param"),
+}
+TAGS_CommonFloatOrParamType_float_or_param = {
+    ("parameters", "CommonParamType"): "param",
+}
+
+
+ENCODERS_CommonIntOrParamType_int_or_param = {
+    int: (leaf(lambda x: integer_text(x)), "int"),
+    CommonParamType: (encode_CommonParamType, "param"),
+}
+TAGS_CommonIntOrParamType_int_or_param = {
+    ("parameters", "CommonParamType"): "param",
+}
 
 
 ENCODERS_CommonSidrefOrParamType_sidref_or_param = {

@@ -1067,16 +1067,6 @@ def encode_RodType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_RodType_radius_or_radii = {
-    Radius: (encode_Radius, "pe:radius"),
-    Radii: (encode_Radii, "pe:radii"),
-}
-TAGS_RodType_radius_or_radii = {
-    ("pe", "Radius"): "pe:radius",
-    ("pe", "Radii"): "pe:radii",
-}
-
-
 def decode_WorldType(e):
     o = new(WorldType)
     v_gravity = []
@@ -1226,16 +1216,6 @@ def encode_Capsule(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_Capsule_radius_or_radii = {
-    Radius: (encode_Radius, "pe:radius"),
-    Radii: (encode_Radii, "pe:radii"),
-}
-TAGS_Capsule_radius_or_radii = {
-    ("pe", "Radius"): "pe:radius",
-    ("pe", "Radii"): "pe:radii",
-}
-
-
 def decode_Cylinder(e):
     o = new(Cylinder)
     v_radius_or_radii = None
@@ -1271,16 +1251,6 @@ def encode_Cylinder(o, w, tag, i):
     x = o.length
     w(j + "<pe:length>" + number_text(x) + "</pe:length>")
     w(f"{i}</{tag}>")
-
-
-ENCODERS_Cylinder_radius_or_radii = {
-    Radius: (encode_Radius, "pe:radius"),
-    Radii: (encode_Radii, "pe:radii"),
-}
-TAGS_Cylinder_radius_or_radii = {
-    ("pe", "Radius"): "pe:radius",
-    ("pe", "Radii"): "pe:radii",
-}
 
 
 def decode_Joint(e):
@@ -1630,24 +1600,6 @@ def encode_ShapeType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_ShapeType_choice = {
-    PlaneType: (encode_PlaneType, "pe:plane"),
-    SphereType: (encode_SphereType, "pe:sphere"),
-    BoxType: (encode_BoxType, "pe:box"),
-    Capsule: (encode_Capsule, "pe:capsule"),
-    Cylinder: (encode_Cylinder, "pe:cylinder"),
-    EllipsoidType: (encode_EllipsoidType, "pe:ellipsoid"),
-}
-TAGS_ShapeType_choice = {
-    ("pe", "PlaneType"): "pe:plane",
-    ("pe", "SphereType"): "pe:sphere",
-    ("pe", "BoxType"): "pe:box",
-    ("pe", "Capsule"): "pe:capsule",
-    ("pe", "Cylinder"): "pe:cylinder",
-    ("pe", "EllipsoidType"): "pe:ellipsoid",
-}
-
-
 def decode_UnionType(e):
     o = new(UnionType)
     v_fixed = None
@@ -1775,16 +1727,6 @@ def encode_UnionType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_UnionType_shape_or_union = {
-    ShapeType: (encode_ShapeType, "pe:shape"),
-    UnionType: (encode_UnionType, "pe:union"),
-}
-TAGS_UnionType_shape_or_union = {
-    ("pe", "ShapeType"): "pe:shape",
-    ("pe", "UnionType"): "pe:union",
-}
-
-
 def decode_BodyType(e):
     o = new(BodyType)
     v_fixed = None
@@ -1885,16 +1827,6 @@ def encode_BodyType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_BodyType_shape_or_union = {
-    ShapeType: (encode_ShapeType, "pe:shape"),
-    UnionType: (encode_UnionType, "pe:union"),
-}
-TAGS_BodyType_shape_or_union = {
-    ("pe", "ShapeType"): "pe:shape",
-    ("pe", "UnionType"): "pe:union",
-}
-
-
 def decode_Body(e):
     o = new(Body)
     v_fixed = None
@@ -1993,6 +1925,74 @@ def encode_Body(o, w, tag, i):
             f = choose(ENCODERS_Body_shape_or_union, TAGS_Body_shape_or_union, x)
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_RodType_radius_or_radii = {
+    Radius: (encode_Radius, "pe:radius"),
+    Radii: (encode_Radii, "pe:radii"),
+}
+TAGS_RodType_radius_or_radii = {
+    ("pe", "Radius"): "pe:radius",
+    ("pe", "Radii"): "pe:radii",
+}
+
+
+ENCODERS_Capsule_radius_or_radii = {
+    Radius: (encode_Radius, "pe:radius"),
+    Radii: (encode_Radii, "pe:radii"),
+}
+TAGS_Capsule_radius_or_radii = {
+    ("pe", "Radius"): "pe:radius",
+    ("pe", "Radii"): "pe:radii",
+}
+
+
+ENCODERS_Cylinder_radius_or_radii = {
+    Radius: (encode_Radius, "pe:radius"),
+    Radii: (encode_Radii, "pe:radii"),
+}
+TAGS_Cylinder_radius_or_radii = {
+    ("pe", "Radius"): "pe:radius",
+    ("pe", "Radii"): "pe:radii",
+}
+
+
+ENCODERS_ShapeType_choice = {
+    PlaneType: (encode_PlaneType, "pe:plane"),
+    SphereType: (encode_SphereType, "pe:sphere"),
+    BoxType: (encode_BoxType, "pe:box"),
+    Capsule: (encode_Capsule, "pe:capsule"),
+    Cylinder: (encode_Cylinder, "pe:cylinder"),
+    EllipsoidType: (encode_EllipsoidType, "pe:ellipsoid"),
+}
+TAGS_ShapeType_choice = {
+    ("pe", "PlaneType"): "pe:plane",
+    ("pe", "SphereType"): "pe:sphere",
+    ("pe", "BoxType"): "pe:box",
+    ("pe", "Capsule"): "pe:capsule",
+    ("pe", "Cylinder"): "pe:cylinder",
+    ("pe", "EllipsoidType"): "pe:ellipsoid",
+}
+
+
+ENCODERS_UnionType_shape_or_union = {
+    ShapeType: (encode_ShapeType, "pe:shape"),
+    UnionType: (encode_UnionType, "pe:union"),
+}
+TAGS_UnionType_shape_or_union = {
+    ("pe", "ShapeType"): "pe:shape",
+    ("pe", "UnionType"): "pe:union",
+}
+
+
+ENCODERS_BodyType_shape_or_union = {
+    ShapeType: (encode_ShapeType, "pe:shape"),
+    UnionType: (encode_UnionType, "pe:union"),
+}
+TAGS_BodyType_shape_or_union = {
+    ("pe", "ShapeType"): "pe:shape",
+    ("pe", "UnionType"): "pe:union",
+}
 
 
 ENCODERS_Body_shape_or_union = {

@@ -153,13 +153,6 @@ def encode_InstanceRigidBodyTypeTechniqueCommonMassFrame(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_InstanceRigidBodyTypeTechniqueCommonMassFrame_translate_or_rotate = {}
-TAGS_InstanceRigidBodyTypeTechniqueCommonMassFrame_translate_or_rotate = {
-    ("core", "TranslateType"): "translate",
-    ("core", "RotateType"): "rotate",
-}
-
-
 def decode_InstanceRigidBodyTypeTechniqueCommonShapeHollow(e, empty=""):
     o = new(InstanceRigidBodyTypeTechniqueCommonShapeHollow)
     v_sid = None
@@ -242,13 +235,6 @@ def encode_RigidBodyTypeTechniqueCommonMassFrame(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_RigidBodyTypeTechniqueCommonMassFrame_translate_or_rotate = {}
-TAGS_RigidBodyTypeTechniqueCommonMassFrame_translate_or_rotate = {
-    ("core", "TranslateType"): "translate",
-    ("core", "RotateType"): "rotate",
-}
 
 
 def decode_RigidBodyTypeTechniqueCommonShapeHollow(e, empty=""):
@@ -627,13 +613,6 @@ def encode_RigidConstraintTypeAttachment(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_RigidConstraintTypeAttachment_translate_or_rotate = {}
-TAGS_RigidConstraintTypeAttachment_translate_or_rotate = {
-    ("core", "TranslateType"): "translate",
-    ("core", "RotateType"): "rotate",
-}
-
-
 def decode_RigidConstraintTypeRefAttachment(e):
     o = new(RigidConstraintTypeRefAttachment)
     v_translate_or_rotate = []
@@ -682,13 +661,6 @@ def encode_RigidConstraintTypeRefAttachment(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_RigidConstraintTypeRefAttachment_translate_or_rotate = {}
-TAGS_RigidConstraintTypeRefAttachment_translate_or_rotate = {
-    ("core", "TranslateType"): "translate",
-    ("core", "RotateType"): "rotate",
-}
 
 
 def decode_RigidConstraintTypeTechniqueCommonLimitsLinear(e):
@@ -1135,34 +1107,6 @@ def encode_InstanceRigidBodyTypeTechniqueCommonShape(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_InstanceRigidBodyTypeTechniqueCommonShape_instance_physics_material_or_physics_material = {
-    InstancePhysicsMaterialType: (encode_InstancePhysicsMaterialType, "instance_physics_material"),
-    PhysicsMaterialType: (encode_PhysicsMaterialType, "physics_material"),
-}
-TAGS_InstanceRigidBodyTypeTechniqueCommonShape_instance_physics_material_or_physics_material = {
-    ("physics", "InstancePhysicsMaterialType"): "instance_physics_material",
-    ("physics", "PhysicsMaterialType"): "physics_material",
-}
-
-
-ENCODERS_InstanceRigidBodyTypeTechniqueCommonShape_choice = {}
-TAGS_InstanceRigidBodyTypeTechniqueCommonShape_choice = {
-    ("geometry", "InstanceGeometryType"): "instance_geometry",
-    ("geometry", "PlaneType"): "plane",
-    ("geometry", "BoxType"): "box",
-    ("geometry", "SphereType"): "sphere",
-    ("geometry", "CylinderType"): "cylinder",
-    ("geometry", "CapsuleType"): "capsule",
-}
-
-
-ENCODERS_InstanceRigidBodyTypeTechniqueCommonShape_translate_or_rotate = {}
-TAGS_InstanceRigidBodyTypeTechniqueCommonShape_translate_or_rotate = {
-    ("core", "TranslateType"): "translate",
-    ("core", "RotateType"): "rotate",
-}
-
-
 def decode_LibraryPhysicsMaterialsType(e):
     o = new(LibraryPhysicsMaterialsType)
     v_asset = None
@@ -1331,34 +1275,6 @@ def encode_RigidBodyTypeTechniqueCommonShape(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_RigidBodyTypeTechniqueCommonShape_instance_physics_material_or_physics_material = {
-    InstancePhysicsMaterialType: (encode_InstancePhysicsMaterialType, "instance_physics_material"),
-    PhysicsMaterialType: (encode_PhysicsMaterialType, "physics_material"),
-}
-TAGS_RigidBodyTypeTechniqueCommonShape_instance_physics_material_or_physics_material = {
-    ("physics", "InstancePhysicsMaterialType"): "instance_physics_material",
-    ("physics", "PhysicsMaterialType"): "physics_material",
-}
-
-
-ENCODERS_RigidBodyTypeTechniqueCommonShape_choice = {}
-TAGS_RigidBodyTypeTechniqueCommonShape_choice = {
-    ("geometry", "InstanceGeometryType"): "instance_geometry",
-    ("geometry", "PlaneType"): "plane",
-    ("geometry", "BoxType"): "box",
-    ("geometry", "SphereType"): "sphere",
-    ("geometry", "CylinderType"): "cylinder",
-    ("geometry", "CapsuleType"): "capsule",
-}
-
-
-ENCODERS_RigidBodyTypeTechniqueCommonShape_translate_or_rotate = {}
-TAGS_RigidBodyTypeTechniqueCommonShape_translate_or_rotate = {
-    ("core", "TranslateType"): "translate",
-    ("core", "RotateType"): "rotate",
-}
-
-
 def decode_RigidConstraintTypeTechniqueCommon(e):
     o = new(RigidConstraintTypeTechniqueCommon)
     v_enabled = None
@@ -1521,16 +1437,6 @@ def encode_InstanceRigidBodyTypeTechniqueCommon(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_InstanceRigidBodyTypeTechniqueCommon_instance_physics_material_or_physics_material = {
-    InstancePhysicsMaterialType: (encode_InstancePhysicsMaterialType, "instance_physics_material"),
-    PhysicsMaterialType: (encode_PhysicsMaterialType, "physics_material"),
-}
-TAGS_InstanceRigidBodyTypeTechniqueCommon_instance_physics_material_or_physics_material = {
-    ("physics", "InstancePhysicsMaterialType"): "instance_physics_material",
-    ("physics", "PhysicsMaterialType"): "physics_material",
-}
-
-
 def decode_RigidBodyTypeTechniqueCommon(e):
     o = new(RigidBodyTypeTechniqueCommon)
     v_dynamic = None
@@ -1609,16 +1515,6 @@ def encode_RigidBodyTypeTechniqueCommon(o, w, tag, i):
     for x in o.shape:
         encode_RigidBodyTypeTechniqueCommonShape(x, w, "shape", j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_RigidBodyTypeTechniqueCommon_instance_physics_material_or_physics_material = {
-    InstancePhysicsMaterialType: (encode_InstancePhysicsMaterialType, "instance_physics_material"),
-    PhysicsMaterialType: (encode_PhysicsMaterialType, "physics_material"),
-}
-TAGS_RigidBodyTypeTechniqueCommon_instance_physics_material_or_physics_material = {
-    ("physics", "InstancePhysicsMaterialType"): "instance_physics_material",
-    ("physics", "PhysicsMaterialType"): "physics_material",
-}
 
 
 def decode_RigidConstraintType(e):
@@ -2146,3 +2042,107 @@ def encode_LibraryPhysicsScenesType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_InstanceRigidBodyTypeTechniqueCommonMassFrame_translate_or_rotate = {}
+TAGS_InstanceRigidBodyTypeTechniqueCommonMassFrame_translate_or_rotate = {
+    ("core", "TranslateType"): "translate",
+    ("core", "RotateType"): "rotate",
+}
+
+
+ENCODERS_RigidBodyTypeTechniqueCommonMassFrame_translate_or_rotate = {}
+TAGS_RigidBodyTypeTechniqueCommonMassFrame_translate_or_rotate = {
+    ("core", "TranslateType"): "translate",
+    ("core", "RotateType"): "rotate",
+}
+
+
+ENCODERS_RigidConstraintTypeAttachment_translate_or_rotate = {}
+TAGS_RigidConstraintTypeAttachment_translate_or_rotate = {
+    ("core", "TranslateType"): "translate",
+    ("core", "RotateType"): "rotate",
+}
+
+
+ENCODERS_RigidConstraintTypeRefAttachment_translate_or_rotate = {}
+TAGS_RigidConstraintTypeRefAttachment_translate_or_rotate = {
+    ("core", "TranslateType"): "translate",
+    ("core", "RotateType"): "rotate",
+}
+
+
+ENCODERS_InstanceRigidBodyTypeTechniqueCommonShape_instance_physics_material_or_physics_material = {
+    InstancePhysicsMaterialType: (encode_InstancePhysicsMaterialType, "instance_physics_material"),
+    PhysicsMaterialType: (encode_PhysicsMaterialType, "physics_material"),
+}
+TAGS_InstanceRigidBodyTypeTechniqueCommonShape_instance_physics_material_or_physics_material = {
+    ("physics", "InstancePhysicsMaterialType"): "instance_physics_material",
+    ("physics", "PhysicsMaterialType"): "physics_material",
+}
+
+
+ENCODERS_InstanceRigidBodyTypeTechniqueCommonShape_choice = {}
+TAGS_InstanceRigidBodyTypeTechniqueCommonShape_choice = {
+    ("geometry", "InstanceGeometryType"): "instance_geometry",
+    ("geometry", "PlaneType"): "plane",
+    ("geometry", "BoxType"): "box",
+    ("geometry", "SphereType"): "sphere",
+    ("geometry", "CylinderType"): "cylinder",
+    ("geometry", "CapsuleType"): "capsule",
+}
+
+
+ENCODERS_InstanceRigidBodyTypeTechniqueCommonShape_translate_or_rotate = {}
+TAGS_InstanceRigidBodyTypeTechniqueCommonShape_translate_or_rotate = {
+    ("core", "TranslateType"): "translate",
+    ("core", "RotateType"): "rotate",
+}
+
+
+ENCODERS_RigidBodyTypeTechniqueCommonShape_instance_physics_material_or_physics_material = {
+    InstancePhysicsMaterialType: (encode_InstancePhysicsMaterialType, "instance_physics_material"),
+    PhysicsMaterialType: (encode_PhysicsMaterialType, "physics_material"),
+}
+TAGS_RigidBodyTypeTechniqueCommonShape_instance_physics_material_or_physics_material = {
+    ("physics", "InstancePhysicsMaterialType"): "instance_physics_material",
+    ("physics", "PhysicsMaterialType"): "physics_material",
+}
+
+
+ENCODERS_RigidBodyTypeTechniqueCommonShape_choice = {}
+TAGS_RigidBodyTypeTechniqueCommonShape_choice = {
+    ("geometry", "InstanceGeometryType"): "instance_geometry",
+    ("geometry", "PlaneType"): "plane",
+    ("geometry", "BoxType"): "box",
+    ("geometry", "SphereType"): "sphere",
+    ("geometry", "CylinderType"): "cylinder",
+    ("geometry", "CapsuleType"): "capsule",
+}
+
+
+ENCODERS_RigidBodyTypeTechniqueCommonShape_translate_or_rotate = {}
+TAGS_RigidBodyTypeTechniqueCommonShape_translate_or_rotate = {
+    ("core", "TranslateType"): "translate",
+    ("core", "RotateType"): "rotate",
+}
+
+
+ENCODERS_InstanceRigidBodyTypeTechniqueCommon_instance_physics_material_or_physics_material = {
+    InstancePhysicsMaterialType: (encode_InstancePhysicsMaterialType, "instance_physics_material"),
+    PhysicsMaterialType: (encode_PhysicsMaterialType, "physics_material"),
+}
+TAGS_InstanceRigidBodyTypeTechniqueCommon_instance_physics_material_or_physics_material = {
+    ("physics", "InstancePhysicsMaterialType"): "instance_physics_material",
+    ("physics", "PhysicsMaterialType"): "physics_material",
+}
+
+
+ENCODERS_RigidBodyTypeTechniqueCommon_instance_physics_material_or_physics_material = {
+    InstancePhysicsMaterialType: (encode_InstancePhysicsMaterialType, "instance_physics_material"),
+    PhysicsMaterialType: (encode_PhysicsMaterialType, "physics_material"),
+}
+TAGS_RigidBodyTypeTechniqueCommon_instance_physics_material_or_physics_material = {
+    ("physics", "InstancePhysicsMaterialType"): "instance_physics_material",
+    ("physics", "PhysicsMaterialType"): "physics_material",
+}

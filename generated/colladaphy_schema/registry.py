@@ -12,9 +12,9 @@ PREFIXES: dict[str, str] = {
 NAMESPACES: dict[str, str] = {
     "animation": "http://www.collada.org/2008/03/COLLADASchema",
     "brep": "http://www.collada.org/2008/03/COLLADASchema",
-    "collada": "http://www.collada.org/2008/03/COLLADASchema",
     "controllers": "http://www.collada.org/2008/03/COLLADASchema",
     "core": "http://www.collada.org/2008/03/COLLADASchema",
+    "document": "http://www.collada.org/2008/03/COLLADASchema",
     "effects": "http://www.collada.org/2008/03/COLLADASchema",
     "formulas": "http://www.collada.org/2008/03/COLLADASchema",
     "fx_cg": "http://www.collada.org/2008/03/COLLADASchema",
@@ -37,7 +37,7 @@ NAMESPACES: dict[str, str] = {
 }
 # Module and class of a global element.
 ELEMENTS: dict[str, tuple[str, str]] = {
-    "{http://www.collada.org/2008/03/COLLADASchema}COLLADA": ("collada", "Collada"),
+    "{http://www.collada.org/2008/03/COLLADASchema}COLLADA": ("document", "Collada"),
     "{http://www.w3.org/1998/Math/MathML}math": ("mathml", "Math"),
     "{urn:colladaphy:pe:1}body": ("pe", "Body"),
     "{urn:colladaphy:pe:1}joint": ("pe", "Joint"),
@@ -55,7 +55,11 @@ ANNOTATED: dict[str, dict[str, tuple[str, ...]]] = {
         "core": ("ExtraType", "InputLocalOffsetType", "InputLocalType", "PType", "SourceType"),
         "geometry": ("PlaneType", "SphereType", "VerticesType"),
     },
-    "collada": {
+    "controllers": {
+        "core": ("AssetType", "ExtraType", "InputLocalOffsetType", "InputLocalType", "SourceType"),
+    },
+    "core": {},
+    "document": {
         "animation": ("LibraryAnimationClipsType", "LibraryAnimationsType"),
         "controllers": ("LibraryControllersType",),
         "core": ("AssetType", "ExtraType", "InstanceWithExtraType"),
@@ -83,10 +87,6 @@ ANNOTATED: dict[str, dict[str, tuple[str, ...]]] = {
             "LibraryVisualScenesType",
         ),
     },
-    "controllers": {
-        "core": ("AssetType", "ExtraType", "InputLocalOffsetType", "InputLocalType", "SourceType"),
-    },
-    "core": {},
     "effects": {
         "core": ("AssetType", "ExtraType"),
         "fx_cg": ("ProfileCgType",),

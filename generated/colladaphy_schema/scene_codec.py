@@ -859,18 +859,6 @@ def encode_CameraTypeOpticsTechniqueCommonOrthographic(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_CameraTypeOpticsTechniqueCommonOrthographic_xmag_or_ymag_or_aspect_ratio = {
-    Xmag: (encode_Xmag, "xmag"),
-    Ymag: (encode_Ymag, "ymag"),
-    AspectRatio: (encode_AspectRatio, "aspect_ratio"),
-}
-TAGS_CameraTypeOpticsTechniqueCommonOrthographic_xmag_or_ymag_or_aspect_ratio = {
-    ("scene", "Xmag"): "xmag",
-    ("scene", "Ymag"): "ymag",
-    ("scene", "AspectRatio"): "aspect_ratio",
-}
-
-
 def decode_CameraTypeOpticsTechniqueCommonPerspective(e):
     o = new(CameraTypeOpticsTechniqueCommonPerspective)
     v_xfov_or_yfov_or_aspect_ratio = []
@@ -922,18 +910,6 @@ def encode_CameraTypeOpticsTechniqueCommonPerspective(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_CameraTypeOpticsTechniqueCommonPerspective_xfov_or_yfov_or_aspect_ratio = {
-    Xfov: (encode_Xfov, "xfov"),
-    Yfov: (encode_Yfov, "yfov"),
-    AspectRatio: (encode_AspectRatio, "aspect_ratio"),
-}
-TAGS_CameraTypeOpticsTechniqueCommonPerspective_xfov_or_yfov_or_aspect_ratio = {
-    ("scene", "Xfov"): "xfov",
-    ("scene", "Yfov"): "yfov",
-    ("scene", "AspectRatio"): "aspect_ratio",
-}
-
-
 def decode_LightTypeTechniqueCommon(e):
     o = new(LightTypeTechniqueCommon)
     v_choice = None
@@ -969,23 +945,6 @@ def encode_LightTypeTechniqueCommon(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_LightTypeTechniqueCommon_choice = {
-    LightTypeTechniqueCommonAmbient: (encode_LightTypeTechniqueCommonAmbient, "ambient"),
-    LightTypeTechniqueCommonDirectional: (
-        encode_LightTypeTechniqueCommonDirectional,
-        "directional",
-    ),
-    LightTypeTechniqueCommonPoint: (encode_LightTypeTechniqueCommonPoint, "point"),
-    LightTypeTechniqueCommonSpot: (encode_LightTypeTechniqueCommonSpot, "spot"),
-}
-TAGS_LightTypeTechniqueCommon_choice = {
-    ("scene", "LightTypeTechniqueCommonAmbient"): "ambient",
-    ("scene", "LightTypeTechniqueCommonDirectional"): "directional",
-    ("scene", "LightTypeTechniqueCommonPoint"): "point",
-    ("scene", "LightTypeTechniqueCommonSpot"): "spot",
-}
 
 
 def decode_NodeType(e):
@@ -1129,22 +1088,6 @@ def encode_NodeType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
-ENCODERS_NodeType_choice = {
-    LookatType: (encode_LookatType, "lookat"),
-    MatrixType: (encode_MatrixType, "matrix"),
-    ScaleType: (encode_ScaleType, "scale"),
-    SkewType: (encode_SkewType, "skew"),
-}
-TAGS_NodeType_choice = {
-    ("scene", "LookatType"): "lookat",
-    ("scene", "MatrixType"): "matrix",
-    ("core", "RotateType"): "rotate",
-    ("scene", "ScaleType"): "scale",
-    ("scene", "SkewType"): "skew",
-    ("core", "TranslateType"): "translate",
-}
-
-
 def decode_VisualSceneTypeEvaluateSceneRender(e):
     o = new(VisualSceneTypeEvaluateSceneRender)
     v_layer = []
@@ -1242,22 +1185,6 @@ def encode_CameraTypeOpticsTechniqueCommon(o, w, tag, i):
             )
         f[0](x, w, f[1], j)
     w(f"{i}</{tag}>")
-
-
-ENCODERS_CameraTypeOpticsTechniqueCommon_orthographic_or_perspective = {
-    CameraTypeOpticsTechniqueCommonOrthographic: (
-        encode_CameraTypeOpticsTechniqueCommonOrthographic,
-        "orthographic",
-    ),
-    CameraTypeOpticsTechniqueCommonPerspective: (
-        encode_CameraTypeOpticsTechniqueCommonPerspective,
-        "perspective",
-    ),
-}
-TAGS_CameraTypeOpticsTechniqueCommon_orthographic_or_perspective = {
-    ("scene", "CameraTypeOpticsTechniqueCommonOrthographic"): "orthographic",
-    ("scene", "CameraTypeOpticsTechniqueCommonPerspective"): "perspective",
-}
 
 
 def decode_LibraryNodesType(e):
@@ -1769,3 +1696,76 @@ def encode_LibraryCamerasType(o, w, tag, i):
     for x in o.extra:
         encode_ExtraType(x, w, "extra", j)
     w(f"{i}</{tag}>")
+
+
+ENCODERS_CameraTypeOpticsTechniqueCommonOrthographic_xmag_or_ymag_or_aspect_ratio = {
+    Xmag: (encode_Xmag, "xmag"),
+    Ymag: (encode_Ymag, "ymag"),
+    AspectRatio: (encode_AspectRatio, "aspect_ratio"),
+}
+TAGS_CameraTypeOpticsTechniqueCommonOrthographic_xmag_or_ymag_or_aspect_ratio = {
+    ("scene", "Xmag"): "xmag",
+    ("scene", "Ymag"): "ymag",
+    ("scene", "AspectRatio"): "aspect_ratio",
+}
+
+
+ENCODERS_CameraTypeOpticsTechniqueCommonPerspective_xfov_or_yfov_or_aspect_ratio = {
+    Xfov: (encode_Xfov, "xfov"),
+    Yfov: (encode_Yfov, "yfov"),
+    AspectRatio: (encode_AspectRatio, "aspect_ratio"),
+}
+TAGS_CameraTypeOpticsTechniqueCommonPerspective_xfov_or_yfov_or_aspect_ratio = {
+    ("scene", "Xfov"): "xfov",
+    ("scene", "Yfov"): "yfov",
+    ("scene", "AspectRatio"): "aspect_ratio",
+}
+
+
+ENCODERS_LightTypeTechniqueCommon_choice = {
+    LightTypeTechniqueCommonAmbient: (encode_LightTypeTechniqueCommonAmbient, "ambient"),
+    LightTypeTechniqueCommonDirectional: (
+        encode_LightTypeTechniqueCommonDirectional,
+        "directional",
+    ),
+    LightTypeTechniqueCommonPoint: (encode_LightTypeTechniqueCommonPoint, "point"),
+    LightTypeTechniqueCommonSpot: (encode_LightTypeTechniqueCommonSpot, "spot"),
+}
+TAGS_LightTypeTechniqueCommon_choice = {
+    ("scene", "LightTypeTechniqueCommonAmbient"): "ambient",
+    ("scene", "LightTypeTechniqueCommonDirectional"): "directional",
+    ("scene", "LightTypeTechniqueCommonPoint"): "point",
+    ("scene", "LightTypeTechniqueCommonSpot"): "spot",
+}
+
+
+ENCODERS_NodeType_choice = {
+    LookatType: (encode_LookatType, "lookat"),
+    MatrixType: (encode_MatrixType, "matrix"),
+    ScaleType: (encode_ScaleType, "scale"),
+    SkewType: (encode_SkewType, "skew"),
+}
+TAGS_NodeType_choice = {
+    ("scene", "LookatType"): "lookat",
+    ("scene", "MatrixType"): "matrix",
+    ("core", "RotateType"): "rotate",
+    ("scene", "ScaleType"): "scale",
+    ("scene", "SkewType"): "skew",
+    ("core", "TranslateType"): "translate",
+}
+
+
+ENCODERS_CameraTypeOpticsTechniqueCommon_orthographic_or_perspective = {
+    CameraTypeOpticsTechniqueCommonOrthographic: (
+        encode_CameraTypeOpticsTechniqueCommonOrthographic,
+        "orthographic",
+    ),
+    CameraTypeOpticsTechniqueCommonPerspective: (
+        encode_CameraTypeOpticsTechniqueCommonPerspective,
+        "perspective",
+    ),
+}
+TAGS_CameraTypeOpticsTechniqueCommon_orthographic_or_perspective = {
+    ("scene", "CameraTypeOpticsTechniqueCommonOrthographic"): "orthographic",
+    ("scene", "CameraTypeOpticsTechniqueCommonPerspective"): "perspective",
+}

@@ -25,6 +25,7 @@ class Needs:
     classes: dict[str, set[str]] = field(default_factory=dict)  # by area, imported at once
     functions: dict[str, set[str]] = field(default_factory=dict)  # by area, linked when called
     enumerations: dict[str, Record] = field(default_factory=dict)
+    tables: list[str] = field(default_factory=list)  # source of tables, after all functions
     decode_tables: list[str] = field(default_factory=list)
 
     def use_class(self, record: Record) -> str:

@@ -92,7 +92,8 @@ def decode_function(record: Record, needs: Needs) -> list[str]:
         lines.append("o._stated = stated")
     lines.append("return o")
     head = f"def decode_{record.name}(e{', empty=' + repr('') if text else ''}):"
-    return ["", "", head, *indented(lines), *table]
+    needs.tables += table
+    return ["", "", head, *indented(lines)]
 
 
 def keeps_stated(record: Record) -> bool:
@@ -143,9 +144,7 @@ def remember(source: Field, needs: Needs) -> list[str]:
     ]
 
 
-def children(
-    record: Record, elements: list[Field], needs: Needs
-) -> tuple[list[str], list[str]]:
+def children(record: Record, elements: list[Field], needs: Needs) -> tuple[list[str], list[str]]:
     """The loop over the child elements, and the table for those of many alternatives."""
     chain: list[tuple[Branch, Field]] = []
     tabled: Field | None = None

@@ -70,7 +70,8 @@ def encode_function(record: Record, needs: Needs) -> list[str]:
                 lines += body
                 tables += table
             lines.append("w(f'{i}</{tag}>')")
-    return ["", "", f"def encode_{record.name}(o, w, tag, i):", *indented(lines), *tables]
+    needs.tables += tables
+    return ["", "", f"def encode_{record.name}(o, w, tag, i):", *indented(lines)]
 
 
 def attributes(record: Record, needs: Needs) -> list[str]:

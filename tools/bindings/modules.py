@@ -36,13 +36,18 @@ def codec_module(module: str, records: list[Record]) -> str:
         functions += encode_function(record, needs)
     lines = [f'"""Codec of {module}: elements to dataclasses and back.', "", MARK, '"""', ""]
     lines.append("from __future__ import annotations")
+    functions += needs.tables
     body = "\n".join(functions)
-    for source, names in (("errors", ERRORS), ("nodes", ("AnyElement",)), ("lexical", LEXICAL), ("linking", LINKING)):
+    for source, names in (
+        ("errors", ERRORS),
+        ("nodes", ("AnyElement",)),
+        ("lexical", LEXICAL),
+        ("linking", LINKING),
+    ):
         lines.append(from_import(source, [name for name in names if name in body + "Links"]))
     if "XmlDateTime" in body:
         lines.append("from xsdata.models.datatype import XmlDateTime")
-    for area in sorted(needs.classes):
-        lines.append(from_import(area, sorted(needs.classes[area])))
+    lines += [from_import(area, sorted(needs.classes[area])) for area in sorted(needs.classes)]
     lines += ["", "links = Links(", "    globals(),", "    {"]
     for area in sorted(needs.functions):
         lines.append(f"        {area!r}: {tuple(sorted(needs.functions[area]))!r},")
@@ -96,7 +101,7 @@ def package_module(classes: dict[str, str]) -> str:
         '"""COLLADA 1.5 and the pe profile as dataclasses, a module an area.',
         "",
         "A class is found by its name here or in its module; its module is imported on first use.",
-        "Where the pe profile has a class of the same name as COLLADA, this package means COLLADA's",
+        "Where the pe profile has a class of the same name, this package means COLLADA's,",
         "and the profile's is in `colladaphy_schema.pe`.",
         "",
         MARK,

@@ -17,7 +17,8 @@ from tools.bindings.model import Model, Record
 from tools.bindings.modules import MARK, codec_module, package_module, registry_module
 
 # Modules whose name is not their schema file's.
-RENAMED = {"pe_profile": "pe"}
+RENAMED = {"collada": "document", "pe_profile": "pe"}
+PROFILE = "pe"
 RUNTIME = Path(__file__).parent / "runtime"
 
 
@@ -57,8 +58,11 @@ class BindingsGenerator(DataclassGenerator):
             lazy[module] = {}
             source = self.render_area(resolver, members, model, lazy[module])
             yield GeneratorResult(root / f"{module}.py", module, source)
-            records = [model.records[name] for name in resolver.class_list if name in
-                       {obj.qname for obj in members}]
+            records = [
+                model.records[name]
+                for name in resolver.class_list
+                if name in {obj.qname for obj in members}
+            ]
             yield GeneratorResult(
                 root / f"{module}_codec.py", module, codec_module(module, records)
             )
@@ -69,8 +73,11 @@ class BindingsGenerator(DataclassGenerator):
             if path.stem in lazy:
                 raise ValueError(f"the schema file {path.stem} has the name of a runtime module")
             source = path.read_text(encoding="utf-8")
-            yield GeneratorResult(root / path.name, path.stem, f"# {MARK}\n# Its source is "
-                                  f"tools/bindings/runtime/{path.name}.\n{source}")
+            yield GeneratorResult(
+                root / path.name,
+                path.stem,
+                f"# {MARK}\n# Its source is tools/bindings/runtime/{path.name}.\n{source}",
+            )
         yield GeneratorResult(root / "py.typed", "marker", "# This package has annotations.\n")
 
     def render_area(
@@ -83,8 +90,12 @@ class BindingsGenerator(DataclassGenerator):
         """One module of dataclasses; fills `lazy` with what its annotations need elsewhere."""
         own = {obj.qname for obj in classes}
         now = {ext.type.qname for obj in classes for ext in obj.extensions}
-        now |= {attr.default[6:].split("::")[0] for obj in classes for attr in obj.attrs
-                if isinstance(attr.default, str) and attr.default.startswith("@enum@")}
+        now |= {
+            attr.default[6:].split("::")[0]
+            for obj in classes
+            for attr in obj.attrs
+            if isinstance(attr.default, str) and attr.default.startswith("@enum@")
+        }
         for obj in classes:
             for attr in obj.attrs:
                 for choice in attr.choices:
@@ -139,16 +150,14 @@ class BindingsGenerator(DataclassGenerator):
 
 def remembers(root: Record, model: Model) -> bool:
     """Whether a class or one derived from it has to remember stated defaults."""
-    return any(
-        record.has_stated and root in ancestry(record) for record in model.records.values()
-    )
+    return any(record.has_stated and root in ancestry(record) for record in model.records.values())
 
 
 def homes(records: list[Record]) -> dict[str, str]:
     """The module of each class by name; the profile's yield to COLLADA's."""
     result: dict[str, str] = {}
-    for record in sorted(records, key=lambda r: (r.module in RENAMED.values(), r.module)):
+    for record in sorted(records, key=lambda r: (r.module == PROFILE, r.module)):
         home = result.setdefault(record.name, record.module)
-        if home != record.module and record.module not in RENAMED.values():
+        if home != record.module and record.module != PROFILE:
             raise ValueError(f"{record.name} is in {home} and in {record.module}")
     return result

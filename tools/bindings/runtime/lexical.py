@@ -14,9 +14,9 @@ from operator import index
 from typing import Any, NoReturn, TypeVar
 
 from lxml.etree import _Element
+from xsdata.models.datatype import XmlDateTime
 
 from colladaphy_schema.errors import CodecError, reject
-from xsdata.models.datatype import XmlDateTime
 
 E = TypeVar("E", bound=Enum)
 

@@ -136,7 +136,7 @@ def encode_derived(
             encoder_of(cls)(obj, chunks.append, tag, indent)
             head = f"{indent}<{tag}"
             prefix = registry.PREFIXES[uri]
-            chunks[0] = f'{head} xsi:type="{prefix}{local}"{chunks[0][len(head):]}'
+            chunks[0] = f'{head} xsi:type="{prefix}{local}"{chunks[0][len(head) :]}'
             write("".join(chunks))
             return
     raise CodecError(f"{cls.__name__} cannot stand in <{tag}>")
@@ -249,6 +249,5 @@ def other_attributes(values: dict[str, str]) -> str:
     for name, value in values.items():
         chunks.append(f' {attribute_name(name, inner, declared)}="{attribute_escaped(value)}"')
     return "".join(
-        [f' xmlns:{prefix}="{attribute_escaped(uri)}"' for prefix, uri in declared.items()]
-        + chunks
+        [f' xmlns:{prefix}="{attribute_escaped(uri)}"' for prefix, uri in declared.items()] + chunks
     )
