@@ -9,10 +9,11 @@ from colladaphy.conform import rules
 from colladaphy.conform.context import CONFORM, NS, OWN_MAP, Context, append, insert, local, remove
 from colladaphy.conform.frames import axis_angle, nearest_rotation, of_element, transform_of
 from colladaphy.conform.lexical import name_from
-from colladaphy.conform.shapes import GEOMETRIES
+from colladaphy.conform.shapes import GEOMETRIES, TAPERED
 from colladaphy.conform.solids import numbers_of
 
 __all__ = [
+    "body_targets",
     "complete_constraints",
     "diagonalise_inertia",
     "drop_empty_mass_frames",
@@ -185,7 +186,7 @@ def give_shapes(context: Context) -> None:
     Both are marked as assumed: a shape without extent only makes the document valid, and readers
     are to take the body for one without a shape.
     """
-    targets = _targets(context)
+    targets = body_targets(context)
     linked = set(targets.values())
     for body in context.all("rigid_body"):
         common = body.find(NS + "technique_common")
@@ -220,7 +221,7 @@ def give_shapes(context: Context) -> None:
 
 
 def _has_geometry(shape: etree._Element) -> bool:
-    return any(local(child) in GEOMETRIES for child in shape)
+    return any(local(child) in (*GEOMETRIES, *TAPERED) for child in shape)
 
 
 def _assumed(context: Context, url: str | None, matrix: np.ndarray) -> etree._Element:
@@ -240,7 +241,7 @@ def _assumed(context: Context, url: str | None, matrix: np.ndarray) -> etree._El
     return shape
 
 
-def _targets(context: Context) -> dict[etree._Element, etree._Element]:
+def body_targets(context: Context) -> dict[etree._Element, etree._Element]:
     """The node that the first instance of every body targets."""
     found: dict[etree._Element, etree._Element] = {}
     bodies: dict[etree._Element, dict[str, etree._Element]] = {}

@@ -8,6 +8,8 @@ from lxml import etree
 
 from colladaphy.conform import bodies, references, rules, shapes, structure, upgrade
 from colladaphy.conform.context import Context
+from colladaphy.conform.conventions import translate
+from colladaphy.conform.conventions.units import free_limits
 from colladaphy.conform.identifiers import mend_ids, mend_sids
 from colladaphy.conform.normalise import normalise
 from colladaphy.conform.versions import copy_as_1_5, detect_version, note_version
@@ -29,7 +31,6 @@ _REPAIR: tuple[_Step, ...] = (
     mend_sids,
     structure.house_strays,
     structure.wrap_children,
-    shapes.convert_tapered,
     shapes.lift_inline_meshes,
     shapes.extend_capsule_radii,
     shapes.mend_radii,
@@ -46,6 +47,10 @@ _REPAIR: tuple[_Step, ...] = (
     references.mend_instances,
     references.mend_attachments,
     bodies.give_shapes,
+    free_limits,
+)
+_COMPLETE: tuple[_Step, ...] = (
+    shapes.convert_tapered,
     structure.drop_empty_bindings,
     structure.give_geometries_content,
     structure.drop_empty_libraries,
@@ -78,6 +83,9 @@ def conform(
     for step in _UPGRADE if version.startswith("1.4") else ():
         step(context)
     for step in _REPAIR:
+        step(context)
+    translate(context, convention)
+    for step in _COMPLETE:
         step(context)
     context.findings.sort(key=lambda finding: finding.line or 0)
     return twin, context.findings

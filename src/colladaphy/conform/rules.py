@@ -291,6 +291,76 @@ SHADER_PROFILE = Rule(
     "a shader profile of 1.4 is built otherwise in 1.5",
     "it is kept whole in an extra of the effect",
 )
+# Conventions: what a producer means otherwise than the standard.
+CONVENTION = Rule(
+    "convention-chosen",
+    _INFO,
+    "the document follows a producer's own reading of the standard",
+    'choose another with convention=..., or "none"',
+)
+FRAMES = Rule(
+    "convention-frames",
+    _INFO,
+    "mass frames or shapes stood in the model's space",
+    "they are in the body's space now",
+)
+FRAMES_LOCAL = Rule(
+    "convention-frames-local",
+    _INFO,
+    "frames were taken to be in the body's space already",
+    "the numbers say so, though the producer often writes them otherwise",
+)
+FRAMES_DOUBTFUL = Rule(
+    "convention-frames-doubtful",
+    _WARNING,
+    "the numbers speak against the chosen reading of frames",
+    "compare the result with what you expect",
+)
+ANGLE_UNIT = Rule(
+    "convention-angle-unit",
+    _INFO,
+    "angles or angular velocities were in radians",
+    "they are in degrees now, as the standard has them",
+)
+FREE_LIMITS = Rule(
+    "convention-free-limits",
+    _INFO,
+    "a free axis was not written with infinite limits",
+    "it is -INF to INF now",
+)
+PLANE_SIGN = Rule(
+    "convention-plane-sign",
+    _INFO,
+    "a plane's constant had the opposite sign",
+    "the standard's equation is n.x + D = 0",
+)
+HALF_HEIGHT = Rule(
+    "convention-half-height",
+    _INFO,
+    "a height was written halved",
+    "the standard has the full height",
+)
+AXIS = Rule(
+    "convention-axis", _INFO, "a solid stood along z", "the standard's stand along y; it was turned"
+)
+GRAVITY_UNIT = Rule(
+    "convention-gravity-unit",
+    _WARNING,
+    "gravity was in metres, whatever the document's unit",
+    "it is in the document's unit now",
+)
+HOLLOW = Rule(
+    "convention-hollow",
+    _INFO,
+    "shapes were called hollow without a mass of their own",
+    "the producer writes so for solid shapes",
+)
+RESTITUTION = Rule(
+    "convention-restitution",
+    _INFO,
+    "a restitution stood where a spring's target belongs",
+    "it is kept in an extra",
+)
 RULES: tuple[Rule, ...] = tuple(
     value for value in list(globals().values()) if isinstance(value, Rule)
 )

@@ -20,6 +20,7 @@ from colladaphy.conform.solids import (
 
 __all__ = [
     "GEOMETRIES",
+    "TAPERED",
     "convert_tapered",
     "drop_empty_shapes",
     "extend_capsule_radii",
@@ -28,6 +29,7 @@ __all__ = [
     "split_shapes",
 ]
 
+TAPERED = ("tapered_cylinder", "tapered_capsule")
 GEOMETRIES = ("instance_geometry", "plane", "box", "sphere", "cylinder", "capsule")
 
 

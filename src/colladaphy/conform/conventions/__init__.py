@@ -1,0 +1,128 @@
+"""Conventions: producers that mean something else than the standard by what they write.
+
+Each is recognised by what a document says about itself, checked against its numbers where they
+can tell, and translated once. A note in the document's extras (`translated`) keeps it from being
+translated again; another (`written`) is left by our own writers for other programs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from colladaphy.conform import rules
+from colladaphy.conform.context import Context
+from colladaphy.conform.conventions import blender, model_frames, units
+from colladaphy.conform.conventions.clues import Clues, add_note, find_note, read_clues
+
+__all__ = ["CONVENTIONS", "Convention", "translate"]
+
+
+@dataclass(frozen=True, slots=True)
+class Convention:
+    """A producer's own reading.
+
+    `recognise` gives the evidence in words, or None; `apply` rewrites the document, and is told
+    whether the convention was asked for by name and what the document says of itself.
+    """
+
+    name: str
+    summary: str
+    recognise: Callable[[Clues], str | None]
+    apply: Callable[[Context, bool, Clues], None]
+
+
+def _frames(context: Context, named: bool, clues: Clues) -> None:
+    model_frames.apply(context, forced=named)
+
+
+def _bullet(context: Context, named: bool, clues: Clues) -> None:
+    alone = "bullet" in clues.tools.lower() and ";" not in clues.tools
+    units.apply_bullet(context, whole=named or alone or clues.written_for == "bullet")
+
+
+def _nothing(context: Context, named: bool, clues: Clues) -> None:
+    """The thesis's own files differ in references and in their profile, not in meaning."""
+
+
+CONVENTIONS: tuple[Convention, ...] = (
+    Convention(
+        "bullet",
+        "radians, planes n·x = D, halved cylinder heights",
+        units.recognise_bullet,
+        _bullet,
+    ),
+    Convention(
+        "openrave",
+        "mass frames and shapes in the model's space",
+        model_frames.recognise_openrave,
+        _frames,
+    ),
+    Convention(
+        "ros",
+        "urdf_to_collada: mass frames and shapes in the model's space",
+        model_frames.recognise_ros,
+        _frames,
+    ),
+    Convention(
+        "openhrp3",
+        "mass frames and shapes in the model's space",
+        model_frames.recognise_openhrp3,
+        _frames,
+    ),
+    Convention(
+        "nxustream2",
+        "angular velocities in radians, restitution as a spring's target",
+        units.recognise_nxustream,
+        lambda context, named, clues: units.apply_nxustream(context),
+    ),
+    Convention(
+        "colladamaya",
+        "gravity in metres whatever the unit, solid shapes called hollow",
+        units.recognise_colladamaya,
+        lambda context, named, clues: units.apply_colladamaya(context),
+    ),
+    Convention(
+        "blender",
+        "cylinders along z, halved heights, where the shown geometry says so",
+        blender.recognise,
+        lambda context, named, clues: blender.apply(context),
+    ),
+    Convention(
+        "thesis",
+        "paths as references, the pe profile without a namespace of its own",
+        lambda clues: "its pe profile has no namespace of its own" if clues.bare_pe else None,
+        _nothing,
+    ),
+)
+
+
+def translate(context: Context, convention: str) -> None:
+    """Rewrite what the document means otherwise than the standard.
+
+    `convention` is a name of `CONVENTIONS`, "auto" or "none". Raises ValueError for other names.
+    """
+    by_name = {known.name: known for known in CONVENTIONS}
+    if convention not in ("auto", "none", *by_name):
+        names = ", ".join(["auto", "none", *by_name])
+        raise ValueError(f"there is no convention {convention!r}; choose one of {names}")
+    if convention == "none" or find_note(context, "translated") is not None:
+        return
+    clues = read_clues(context)
+    chosen = by_name.get(convention)
+    why = "asked for by name"
+    if chosen is None:
+        for known in CONVENTIONS:
+            if evidence := known.recognise(clues):
+                chosen, why = known, evidence
+                break
+    if chosen is None or not context.wants(rules.CONVENTION):
+        return
+    message = f"the document is read as {chosen.name} means it ({chosen.summary}): {why}"
+    context.note(rules.CONVENTION, context.root, message)
+    chosen.apply(context, convention == chosen.name, clues)
+    note = find_note(context, "written")
+    if note is not None and (extra := note.getparent()) is not None:
+        extra.remove(note)  # true of the file, not of the translated document
+        note = None
+    add_note(context, "translated", **{"from": chosen.name})

@@ -1,0 +1,125 @@
+"""What a document gives away about its producer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from lxml import etree
+
+from colladaphy.conform.context import CONFORM, NS, OWN_MAP, Context, append, local
+from colladaphy.conform.frames import Matrix, transform_of
+from colladaphy.conform.solids import numbers_of
+
+__all__ = ["Clues", "add_note", "extents", "find_note", "place_of", "read_clues", "write_numbers"]
+
+
+@dataclass(frozen=True, slots=True)
+class Clues:
+    """Authoring tools and comments of the contributors, profiles of the techniques, ids of models.
+
+    `written_for` is what our own writer noted: the program whose reading the file was made for.
+    `bare_pe` is true where the pe profile has no namespace of its own.
+    """
+
+    tools: str
+    profiles: frozenset[str]
+    models: frozenset[str]
+    written_for: str | None
+    bare_pe: bool
+
+    def tool(self, *words: str) -> str | None:
+        """The sentence about the first of these words that an authoring tool contains."""
+        for word in words:
+            if word.lower() in self.tools.lower():
+                return f"its authoring tool is {self.tools!r}"
+        return None
+
+
+def read_clues(context: Context) -> Clues:
+    """Look at the contributors, the techniques and the models of a document."""
+    tools = [
+        " ".join((element.text or "").split())
+        for element in context.root.iter(NS + "authoring_tool")
+        if element.text
+    ]
+    profiles = {
+        str(element.get("profile"))
+        for element in context.root.iter(NS + "technique")
+        if element.get("profile")
+    }
+    models = {element.get("id", "") for element in context.all("physics_model")}
+    note = find_note(context, "written")
+    written_for = None if note is None else note.get("for")
+    bare_pe = any(
+        child.tag.startswith(NS)
+        for technique in context.root.iter(NS + "technique")
+        if technique.get("profile") == "pe"
+        for child in technique.iterchildren(tag=etree.Element)
+    )
+    return Clues("; ".join(tools), frozenset(profiles), frozenset(models), written_for, bare_pe)
+
+
+def find_note(context: Context, name: str) -> etree._Element | None:
+    """A note of ours in the extras of the document itself."""
+    for extra in context.root.iterchildren(NS + "extra"):
+        for found in extra.iter(f"{{{CONFORM}}}{name}"):
+            return found
+    return None
+
+
+def add_note(context: Context, name: str, **values: str) -> None:
+    """Add a note of ours to the extras of the document itself."""
+    extra, technique = context.make("extra"), context.make("technique", profile="colladaphy")
+    note = etree.SubElement(technique, f"{{{CONFORM}}}{name}", nsmap=OWN_MAP)
+    for key, value in values.items():
+        note.set(key, value)
+    extra.append(technique)
+    append(context.root, extra)
+
+
+def place_of(element: etree._Element) -> Matrix | None:
+    """The transforms among an element's children, composed; None where one cannot be read."""
+    try:
+        return transform_of(element)
+    except ValueError:
+        return None
+
+
+def write_numbers(element: etree._Element, values: list[float]) -> str:
+    """Set an element's text to numbers; returns what it was."""
+    before = " ".join((element.text or "").split())
+    element.text = " ".join(_spell(value) for value in values)
+    return before
+
+
+def _spell(value: float) -> str:
+    if np.isnan(value):
+        return "NaN"
+    if np.isinf(value):
+        return "INF" if value > 0 else "-INF"
+    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(float(value))
+
+
+def extents(context: Context, geometry: etree._Element | None) -> Matrix | None:
+    """Least and greatest coordinates (2 × 3) of the vertices of a geometry; None without any."""
+    hull = None if geometry is None else geometry.find(NS + "convex_mesh")
+    if hull is not None and hull.get("convex_hull_of"):
+        geometry = context.by_url(hull.get("convex_hull_of"))
+    if geometry is None:
+        return None
+    for vertices in geometry.iter(NS + "vertices"):
+        for source in vertices.iterchildren(NS + "input"):
+            if source.get("semantic") == "POSITION":
+                holder = context.by_url(source.get("source"))
+                array = None if holder is None else holder.find(NS + "float_array")
+                numbers = numbers_of(array)
+                if len(numbers) >= 3 and len(numbers) % 3 == 0:
+                    points = np.asarray(numbers).reshape(-1, 3)
+                    return np.stack([points.min(axis=0), points.max(axis=0)])
+    return None
+
+
+def is_assumed(shape: etree._Element) -> bool:
+    """Whether a shape was made up by conform."""
+    return any(local(e) == "assumed" for e in shape.iter(f"{{{CONFORM}}}assumed"))
