@@ -60,7 +60,9 @@ def document_of(
         other = parsed.parse_relative(file)
         return document_of(other, repair=repair, convention=convention, family=family)
 
-    return Document(tree, file=parsed.file, report=report, opener=opener, family=family)
+    return Document(
+        tree, file=parsed.file, report=report, opener=opener, family=family, tolerant=repair
+    )
 
 
 def write(

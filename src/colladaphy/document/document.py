@@ -18,9 +18,8 @@ from colladaphy.errors import DocumentError
 from colladaphy.findings import Report, Rule
 
 if TYPE_CHECKING:
-    from colladaphy_schema.document import Collada
-
     from colladaphy.world import World
+    from colladaphy_schema.document import Collada
 
 __all__ = ["Document", "Prefer"]
 
@@ -43,6 +42,7 @@ class Document:
         report: Report | None = None,
         opener: Opener | None = None,
         family: dict[str, Document] | None = None,
+        tolerant: bool = False,
     ) -> None:
         self._tree = tree
         self._root: Collada | None = None
@@ -51,6 +51,8 @@ class Document:
         self._opener = opener
         self._family: dict[str, Document] = {} if family is None else family
         self.file = file
+        self.tolerant = tolerant
+        """Whether references that lead nowhere are only reported, not refused."""
         self.report = Report(file) if report is None else report
         """Everything that was found, changed or assumed about this document so far."""
 
@@ -71,9 +73,8 @@ class Document:
     def root(self) -> Collada:
         """The document as generated dataclasses; what is edited there is written."""
         if self._root is None:
-            from colladaphy_schema.codec import decode
-
             from colladaphy_schema import Collada
+            from colladaphy_schema.codec import decode
 
             with paused_collector():
                 self._root = decode(self._tree.getroot(), Collada)
@@ -165,7 +166,8 @@ class Document:
         another one; a `world` that is given keeps its own. `prefer` decides where the pe profile
         and the common profile differ: the newer of the two (thesis 6.2.1), or always
         one of them. What was skipped or assumed is added to `report`. Raises DocumentError where
-        references make no sense.
+        references make no sense; a document that was read with repair leaves out what they
+        concern, and reports it.
         """
         from colladaphy.mapper import load
 

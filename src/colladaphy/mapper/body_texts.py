@@ -6,7 +6,7 @@ one by one (`union_texts`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -61,7 +61,7 @@ class ShapeTexts:
         world: World,
         columns: dict[str, Array],
         options: WriteOptions,
-        planes: dict[int, Sequence[float]],
+        planes: Mapping[int, Sequence[float]],
     ) -> None:
         self._columns = columns
         self._world = world
@@ -86,7 +86,8 @@ class ShapeTexts:
         masses, kinds = self._columns["masses"], self._columns["kinds"]
         exact = np.ones(len(masses), dtype=np.bool_)
         texts = [f"<mass>{mass}</mass>" for mass in column_texts(masses)]
-        for row in np.flatnonzero((kinds == Kind.PLANE) & same_bits(masses, np.zeros(len(masses)))):
+        without = (kinds == Kind.PLANE) & same_bits(masses, np.zeros(len(masses)))
+        for row in np.flatnonzero(without).tolist():
             texts[row] = ""
         if self._options.shape_weight == "density":
             volumes = self._volumes()
@@ -118,7 +119,8 @@ class ShapeTexts:
         _, inertias = mass_and_inertia(
             columns, columns["masses"], self._world.materials, self._world.meshes
         )
-        return solid & np.all(same_bits(inertias, columns["inertias"]), axis=(1, 2))
+        derived: Array = solid & np.all(same_bits(inertias, columns["inertias"]), axis=(1, 2))
+        return derived
 
     def shape(self, row: int, pose_steps: str) -> str:
         """The shape element of a primitive that stands at `pose_steps` in its rigid_body."""

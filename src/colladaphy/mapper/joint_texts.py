@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from colladaphy.mapper.body_texts import identity, kept_name, rotation_texts
 from colladaphy.mapper.markup import attribute, pe_technique
 from colladaphy.mapper.numbers import DEGREE, degrees_exactly, floats_text, same_bits
-from colladaphy.world.kinds import JointKind
+from colladaphy.world import rotations
+from colladaphy.world.kinds import JointKind, Kind
 
 if TYPE_CHECKING:
     from colladaphy.mapper.options import WriteOptions
@@ -52,6 +53,9 @@ def _joint(
 ) -> str:
     positions, orientations = columns["positions"][row], columns["orientations"][row]
     attachments = ""
+    planes = [body is not None and body.kind is Kind.PLANE for body in (joint.body1, joint.body2)]
+    if any(planes):
+        positions, orientations = _beside_planes(joint, positions, orientations, planes)
     for side, name in enumerate(("ref_attachment", "attachment")):
         sid = int(columns["bodies"][row][side])
         where = f' rigid_body="{address(sid)}"' if sid else ""
@@ -63,11 +67,26 @@ def _joint(
     common, exact = _common(joint, columns, row, options)
     technique = ""
     if options.profile != "none":
-        technique = pe_technique(_profile(joint, columns, row, exact, options))
+        technique = pe_technique(_profile(joint, columns, row, exact, planes, options))
     return (
         f'<rigid_constraint sid="Joint{joint.sid}"{attribute("name", joint.name)}>'
         f"{attachments}{common}{technique}</rigid_constraint>"
     )
+
+
+def _beside_planes(
+    joint: Joint, positions: Array, orientations: Array, planes: list[bool]
+) -> tuple[Array, Array]:
+    """The frames as a rigid_body has them: that of a plane is the world's, not the plane's own."""
+    positions, orientations = positions.copy(), orientations.copy()
+    for side, body in enumerate((joint.body1, joint.body2)):
+        if planes[side] and body is not None:
+            turned = rotations.rotate(body.orientation, positions[side])
+            positions[side] = body.position + turned
+            orientations[side] = rotations.multiply(
+                rotations.normalize(body.orientation), orientations[side]
+            )
+    return positions, orientations
 
 
 def _common(
@@ -119,17 +138,22 @@ def _spring(values: Array, prefix: str = "") -> str:
 
 
 def _profile(
-    joint: Joint, columns: dict[str, Array], row: int, exact: bool, options: WriteOptions
+    joint: Joint,
+    columns: dict[str, Array],
+    row: int,
+    exact: bool,
+    planes: list[bool],
+    options: WriteOptions,
 ) -> str:
     full = options.profile == "full"
     content = ""
     for side, name in enumerate(("frame1", "frame2")):
         orientation = columns["orientations"][row][side]
         frame = ""
-        if full:
+        if full or planes[side]:
             numbers = floats_text(columns["positions"][row][side].tolist())
             frame = f"<pe:position>{numbers}</pe:position>"
-        if full or not np.all(same_bits(orientation, _NO_TURN)):
+        if full or planes[side] or not np.all(same_bits(orientation, _NO_TURN)):
             frame += f"<pe:orientation>{floats_text(orientation.tolist())}</pe:orientation>"
         if frame:
             content += f"<pe:{name}>{frame}</pe:{name}>"

@@ -1,0 +1,383 @@
+"""Shapes as parts: primitives, unions, and how the pe profile refines them (thesis 4.3, 6.2.1)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from colladaphy.document.poses import IDENTITY, Pose, rotate_vector
+from colladaphy.mapper import rules
+from colladaphy.mapper.plans import Dimensions, Part
+from colladaphy.mapper.shapes import Shape, ShapeError, read_shape, unit_plane
+from colladaphy.mapper.tensors import Tensor, diagonal, turned
+from colladaphy.world.kinds import Kind
+
+if TYPE_CHECKING:
+    from colladaphy.mapper.bodies import BodyInstance, BodyReader, BodyValues
+    from colladaphy.mapper.profile import ProfileBody, ProfilePart
+    from colladaphy.mapper.staleness import Precision
+
+__all__ = ["Mapping", "compound_part", "single_part"]
+
+
+class Mapping:
+    """One body on its way: what its elements say, and how its values are decided."""
+
+    def __init__(
+        self,
+        reader: BodyReader,
+        instance: BodyInstance,
+        values: BodyValues,
+        profile: ProfileBody | None,
+        precision: Precision,
+    ) -> None:
+        self.reader = reader
+        self.instance = instance
+        self.values = values
+        self.profile = profile
+        self.precision = precision
+        self.edited = False
+        """Whether a shape was edited in the common profile after the profile was written."""
+        self.extent = 0.0
+        """The size of the body: what is small against it can be due to rounding."""
+
+    def decide(self, what: str, stated: object, kept: object, same: bool) -> bool:
+        """Whether the profile's value is taken; notes where it is an older one."""
+        prefer = self.reader.prefer
+        if prefer == "profile" or (prefer == "newer" and same):
+            return True
+        if prefer == "newer":
+            body = self.instance.body
+            self.reader.stale(what, body, self.instance.body_document, stated, kept)
+        return False
+
+    # --- values
+
+    def mass(self, stated: float | None, kept: float | None) -> float | None:
+        """The mass: the profile's, unless the common one is newer."""
+        if kept is None or stated is None:
+            return kept if stated is None else stated
+        same = self.precision.same(stated, kept)
+        return kept if self.decide("mass", stated, kept, same) else stated
+
+    def stated_inertia(self, pose: Pose) -> Tensor | None:
+        """What the common profile says, in the frame of a part at `pose` in the rigid_body."""
+        if self.values.inertia is None:
+            return None
+        frame = self.values.mass_frame
+        tensor = turned(diagonal(self.values.inertia), None if frame is None else frame.orientation)
+        return turned(tensor, pose.inverse().orientation)
+
+    def inertia(self, stated: Tensor | None, kept: Tensor | None) -> Tensor | None:
+        """The inertia: the profile's, unless the common one is newer."""
+        if kept is None or stated is None:
+            return stated if kept is None else kept
+        same = self.precision.same_as_whole(stated, kept)
+        return kept if self.decide("inertia", stated, kept, same) else stated
+
+    def dimensions(self, shape: Shape, kept: ProfilePart) -> tuple[Kind, Dimensions]:
+        """Kind and dimensions: the profile's, unless the common ones are newer."""
+        if kept.dimensions is None or kept.geometry is None:
+            return shape.kind, shape.dimensions
+        kind = Kind[kept.geometry.upper()]
+        x, y, z, length = kept.dimensions
+        exact = (x, y, z, length)
+        same = kind is shape.kind and (
+            self._same_plane(shape.dimensions, exact)
+            if kind is Kind.PLANE
+            else self.precision.same_each(shape.dimensions, exact)
+        )
+        if shape.kind is Kind.MESH and self._is_tessellated(kind, exact, shape):
+            same = True
+        if self.decide("shape", shape.dimensions, exact, same):
+            return kind, exact
+        self.edited = True
+        return shape.kind, shape.dimensions
+
+    def _same_plane(self, stated: Dimensions, kept: Dimensions) -> bool:
+        stated, kept = unit_plane(stated), unit_plane(kept)
+        return self.precision.same_as_whole(stated[:3], kept[:3]) and self.precision.same(
+            stated[3], kept[3], 1e-12
+        )
+
+    def _is_tessellated(self, kind: Kind, exact: Dimensions, shape: Shape) -> bool:
+        """Whether a mesh stands for the primitive of the profile, written for other readers."""
+        mesh = shape.mesh
+        if mesh is None or not mesh.convex:
+            return False
+        reach = np.max(np.abs(mesh.body_vertices), axis=0)
+        x, y, z, length = exact
+        match kind:
+            case Kind.SPHERE:
+                size = np.array([x, x, x])
+            case Kind.BOX:
+                size = np.array([x, y, z]) / 2.0
+            case Kind.ELLIPSOID:
+                size = np.array([x, y, z])
+            case Kind.CAPSULE:
+                size = np.array([x + length / 2.0, y, z])
+            case Kind.CYLINDER:
+                size = np.array([length / 2.0, y, z])
+            case _:
+                return False
+        return bool(np.all(np.abs(reach - size) <= 2e-6 * np.max(size)))
+
+
+def single_part(
+    reader: BodyReader,
+    shape: Shape,
+    material: int,
+    values: BodyValues,
+    profile: ProfileBody | None,
+    precision: Precision,
+    instance: BodyInstance,
+) -> tuple[Part, Pose]:
+    """A body of one shape, and its pose in the rigid_body."""
+    mapping = Mapping(reader, instance, values, profile, precision)
+    kept = None if profile is None or reader.prefer == "common" else profile
+    shape_part = None if kept is None else kept.part
+    if shape_part is not None and shape_part.thesis is not None:
+        shape = _thesis_shape(mapping, shape_part, shape)
+        shape_part = None
+    part = Part(shape.kind, shape.dimensions, IDENTITY, -1, material, shape.hollow)
+    if shape_part is not None:
+        part.kind, part.dimensions = mapping.dimensions(shape, shape_part)
+    if part.kind is Kind.MESH and shape.mesh is not None:
+        part.mesh_id = shape.mesh.id
+    stated = values.mass if values.mass is not None else shape.mass
+    part.mass = mapping.mass(stated, None if kept is None else kept.mass)
+    part.inertia = mapping.inertia(
+        mapping.stated_inertia(shape.pose), None if kept is None else kept.inertia
+    )
+    return part, shape.pose
+
+
+def _thesis_shape(mapping: Mapping, part: ProfilePart, shape: Shape) -> Shape:
+    """The shape that the thesis's spelling of the profile gives, unless it is outdated."""
+    assert part.thesis is not None
+    reader = mapping.reader
+    try:
+        other = read_shape(part.thesis, mapping.instance.body_document, reader.geometries)
+    except (ShapeError, KeyError, ValueError):
+        reader.document.note(
+            rules.BAD_PROFILE, mapping.instance.body, file=mapping.instance.body_document.file
+        )
+        return shape
+    if other.mass is None:
+        other.mass, other.hollow = shape.mass, shape.hollow
+    same = other.kind is shape.kind
+    if same and other.kind is Kind.PLANE:
+        # The equation leaves open which side is solid, so the profile may turn it round.
+        same = any(
+            mapping.precision.same_as_whole(
+                tuple(sign * value for value in shape.dimensions), other.dimensions
+            )
+            for sign in (1.0, -1.0)
+        )
+    elif same:
+        same = mapping.precision.same_each(shape.dimensions, other.dimensions)
+    if not mapping.decide("shape", shape.dimensions, other.dimensions, same):
+        return shape
+    if other.pose == IDENTITY:
+        other.pose = shape.pose
+    return other
+
+
+def compound_part(
+    reader: BodyReader,
+    shapes: Sequence[Shape],
+    materials: Sequence[int],
+    values: BodyValues,
+    profile: ProfileBody | None,
+    precision: Precision,
+    instance: BodyInstance,
+) -> tuple[Part, Pose]:
+    """A body of several shapes as a union, and its pose in the rigid_body."""
+    mapping = Mapping(reader, instance, values, profile, precision)
+    mapping.extent = extent_of(shapes)
+    center = None if values.mass_frame is None else values.mass_frame.position
+    members = [_flat_member(shape, id) for shape, id in zip(shapes, materials, strict=True)]
+    tree = profile.part if profile is not None and reader.prefer != "common" else None
+    if tree is not None and tree.members is not None:
+        leaves = list(tree.leaves())
+        if len(leaves) == len(shapes):
+            return _profiled_union(mapping, tree, members, shapes)
+        reader.document.note(
+            rules.BAD_PROFILE,
+            instance.body,
+            f"The pe profile of {instance.body.get('sid')!r} has {len(leaves)} shapes, "
+            f"the common one {len(shapes)}; the pe union is not used.",
+            file=instance.body_document.file,
+        )
+    part = Part(Kind.UNION, members=members)
+    part.mass = values.mass
+    if values.mass_frame is None:
+        center = center_of(members)
+    place = Pose(center)
+    part.inertia = mapping.stated_inertia(place)
+    back = place.inverse()
+    for member in members:
+        member.pose = back.then(member.pose)
+    return part, place
+
+
+def extent_of(shapes: Sequence[Shape]) -> float:
+    """How far the shapes reach, roughly."""
+    sizes = [0.0]
+    for shape in shapes:
+        sizes += [abs(value) for value in (*shape.dimensions, *shape.pose.translation)]
+        if shape.mesh is not None:
+            sizes.append(float(np.max(np.abs(shape.mesh.vertices))))
+    return max(size for size in sizes if math.isfinite(size))
+
+
+def _flat_member(shape: Shape, material: int) -> Part:
+    mesh_id = -1 if shape.mesh is None else shape.mesh.id
+    part = Part(shape.kind, shape.dimensions, shape.pose, mesh_id, material, shape.hollow)
+    part.mass = shape.mass
+    if shape.kind is Kind.PLANE:
+        part.pose = plane_pose(shape.dimensions)
+    return part
+
+
+def plane_pose(plane: Dimensions) -> Pose:
+    """Where a plane stands of which nothing but its equation is known."""
+    from colladaphy.world import rotations
+
+    a, b, c, displacement = plane
+    w, x, y, z = rotations.between((0.0, 0.0, 1.0), (a, b, c)).tolist()
+    return Pose((a * displacement, b * displacement, c * displacement), (w, x, y, z))
+
+
+def center_of(members: Sequence[Part]) -> tuple[float, float, float] | None:
+    """The centre of mass of members; None for the origin (a plane makes it infinite)."""
+    if any(member.kind is Kind.PLANE for member in members):
+        return None
+    weights = [1.0 if member.mass is None else member.mass for member in members]
+    total = sum(weights)
+    if total <= 0.0:
+        weights = [1.0] * len(weights)
+        total = float(len(weights))
+    x, y, z = (
+        sum(w * member.pose.translation[i] for w, member in zip(weights, members, strict=True))
+        / total
+        for i in range(3)
+    )
+    return (x, y, z) if x or y or z else None
+
+
+# --- unions of the pe profile
+
+
+def _profiled_union(
+    mapping: Mapping, tree: ProfilePart, members: list[Part], shapes: Sequence[Shape]
+) -> tuple[Part, Pose]:
+    """The union of the pe profile, its leaves refined by the shapes of the common profile."""
+    profile = mapping.profile
+    assert profile is not None
+    leaves = iter(list(zip(members, shapes, strict=True)))
+    part = Part(Kind.UNION)
+    part.members = [_refined(mapping, child, leaves, Pose()) for child in tree.members or ()]
+    masses = [leaf.mass or 0.0 for leaf in members]
+    stated = mapping.values.mass
+    if stated is None:
+        stated = 0.0
+        for mass in masses:
+            stated += mass
+    part.mass = mapping.mass(stated, profile.mass)
+    part.inertia = mapping.inertia(mapping.stated_inertia(IDENTITY), profile.inertia)
+    frame = mapping.values.mass_frame
+    center = None if frame is None else frame.position
+    if mapping.edited or tree.pose != IDENTITY:
+        # A shape is another one now, so the centre of mass and the inertia are, too.
+        part.mass = mapping.values.mass
+        part.inertia = None
+        center = center_of(members)
+        for child in part.members:
+            _forget_sums(child)
+    elif profile.inertia is None:
+        center = center_of(members) if frame is None else center
+    place = Pose(center if center is None or any(center) else None)
+    for child in part.members:
+        child.pose = place.inverse().then(child.pose)
+    return part, place
+
+
+def _forget_sums(part: Part) -> None:
+    if part.kind is Kind.UNION:
+        part.mass = part.inertia = None
+        for member in part.members:
+            _forget_sums(member)
+
+
+def _refined(
+    mapping: Mapping,
+    kept: ProfilePart,
+    leaves: Iterator[tuple[Part, Shape]],
+    outer: Pose,
+) -> Part:
+    """A member of a pe union; `outer` is the pose of the union in the rigid_body."""
+    if kept.members is not None:
+        inner = Part(Kind.UNION, uid=kept.uid, sid=kept.sid, name=kept.name)
+        inner.pose = kept.pose
+        inner.mass, inner.inertia = kept.mass, kept.inertia
+        where = outer.then(kept.pose)
+        inner.members = [_refined(mapping, child, leaves, where) for child in kept.members]
+        if kept.inertia is None:
+            _settle(inner)
+        return inner
+    part, shape = next(leaves)
+    if kept.thesis is not None:
+        fresh = _thesis_shape(mapping, kept, shape)
+        if fresh is not shape:
+            own = Pose() if fresh.pose is shape.pose else fresh.pose
+            part.kind, part.dimensions = fresh.kind, fresh.dimensions
+            part.pose = own
+            part.mass = fresh.mass
+    else:
+        part.kind, part.dimensions = mapping.dimensions(shape, kept)
+        if part.kind is not Kind.MESH:
+            part.mesh_id = -1
+        part.mass = mapping.mass(part.mass, kept.mass)
+        part.inertia = kept.inertia
+        part.pose = _member_pose(mapping, kept, part, outer)
+    part.uid, part.sid, part.name = kept.uid, kept.sid, kept.name
+    return part
+
+
+def _settle(union: Part) -> None:
+    """Put the origin of a union that has none at its centre of mass."""
+    center = center_of([leaf for leaf in union.members if leaf.kind is not Kind.UNION])
+    if center is None or any(member.kind is Kind.UNION for member in union.members):
+        return
+    place = Pose(center)
+    union.pose = union.pose.then(place)
+    for member in union.members:
+        member.pose = place.inverse().then(member.pose)
+
+
+def _member_pose(mapping: Mapping, kept: ProfilePart, part: Part, outer: Pose) -> Pose:
+    """The pose in the union: the profile's, unless the common one is newer."""
+    stated = part.pose
+    direct = outer == IDENTITY
+    position = kept.position
+    if position is None:
+        position = stated.position if direct else outer.inverse().then(stated).position
+    orientation = kept.orientation
+    exact = Pose(position, orientation)
+    whole = outer.then(exact)
+    if part.kind is Kind.PLANE:
+        normal = rotate_vector(whole.rotation, (0.0, 0.0, 1.0))
+        same = mapping.precision.same_as_whole(normal, unit_plane(part.dimensions)[:3])
+        same = same or kept.dimensions is not None
+    else:
+        same = mapping.precision.same_as_whole(
+            whole.translation, stated.translation, mapping.extent
+        ) and mapping.precision.same_turn(whole.rotation, stated.rotation)
+    if mapping.decide("pose of a shape", stated, whole, same):
+        return exact
+    mapping.edited = True
+    return outer.inverse().then(stated)

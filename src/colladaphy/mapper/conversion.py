@@ -1,0 +1,133 @@
+"""Changing the unit of length and the up axis of what was loaded.
+
+Masses stay kilograms and times seconds; a length of one document's unit is so many of the World's.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.document.poses import Quaternion
+from colladaphy.world import rotations
+from colladaphy.world.kinds import Kind
+from colladaphy.world.materials import VALUES, Materials
+
+if TYPE_CHECKING:
+    from colladaphy.document import Document
+    from colladaphy.world import World
+
+__all__ = ["Conversion", "conversion", "convert"]
+
+Array = NDArray[Any]
+
+_HALF = math.sqrt(0.5)
+# Rotations that turn one up axis onto another, as authoring tools do (the spec's right, up, in).
+_TO_Z_UP: dict[str, Quaternion] = {
+    "X_UP": (_HALF, 0.0, -_HALF, 0.0),
+    "Y_UP": (_HALF, _HALF, 0.0, 0.0),
+    "Z_UP": (1.0, 0.0, 0.0, 0.0),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Conversion:
+    """What to change: the factor for lengths, the turn of all axes, and what holds after."""
+
+    scale: float
+    turn: Quaternion
+    unit: tuple[str, float]
+    up_axis: str
+
+
+def conversion(
+    document: Document, world: World | None, *, si: bool, up_axis: str | None
+) -> Conversion | None:
+    """What has to be changed; None where nothing has."""
+    name, meter = document.unit
+    target = (name, meter)
+    axis = up_axis or document.up_axis
+    if world is not None:
+        target, axis = (world.unit_name, world.unit_meter), world.up_axis
+    elif si:
+        target = ("meter", 1.0)
+    if target[1] == meter and axis == document.up_axis:
+        return None
+    for known in (axis, document.up_axis):
+        if known not in _TO_Z_UP:
+            raise ValueError(f"an up axis is X_UP, Y_UP or Z_UP, not {known!r}")
+    back = rotations.conjugate(_TO_Z_UP[axis])
+    w, x, y, z = rotations.multiply(back, _TO_Z_UP[document.up_axis]).tolist()
+    turn = (w, x, y, z) if axis != document.up_axis else (1.0, 0.0, 0.0, 0.0)
+    return Conversion(meter / target[1], turn, target, axis)
+
+
+def convert(world: World, change: Conversion) -> None:
+    """Change everything in a World."""
+    from colladaphy.world import Mesh
+
+    scale, turn = change.scale, np.array(change.turn)
+    turns = change.turn != (1.0, 0.0, 0.0, 0.0)
+    world.unit_name, world.unit_meter = change.unit
+    world.up_axis = change.up_axis
+    world.gravity = _turned(turn, world.gravity * scale, turns)
+    top, inner = world.top, world.inner
+    for name in ("positions", "linear_velocities", "forces", "angular_velocities", "torques"):
+        column = top.column(name)
+        factor = {"angular_velocities": 1.0, "torques": scale * scale}.get(name, scale)
+        column[...] = _turned(turn, column * factor, turns)
+    if turns:
+        top.column("orientations")[...] = rotations.multiply(turn, top.column("orientations"))
+    inner.column("positions")[...] *= scale
+    for table in (top, inner):
+        table.column("inertias")[...] *= scale * scale
+        dimensions, kinds = table.column("dimensions"), table.column("kinds")
+        planes = kinds == Kind.PLANE
+        dimensions[~planes] *= scale
+        dimensions[planes, 3] *= scale
+        dimensions[planes, :3] = _turned(turn, dimensions[planes, :3], turns)
+    joints = world.joint_table
+    joints.column("positions")[...] *= scale
+    joints.column("linear_limits")[...] *= scale
+    joints.column("linear_springs")[:, 2] *= scale
+    joints.column("angular_springs")[:, :2] *= scale * scale
+    bodies = joints.column("bodies")
+    for side in (0, 1):
+        free = bodies[:, side] == 0  # frames of the world turn with the world
+        joints.column("positions")[free, side] = _turned(
+            turn, joints.column("positions")[free, side], turns
+        )
+        if turns:
+            joints.column("orientations")[free, side] = rotations.multiply(
+                turn, joints.column("orientations")[free, side]
+            )
+    if scale != 1.0:
+        for id, mesh in list(world.meshes.items()):
+            world.meshes[id] = Mesh(
+                mesh.vertices * scale, mesh.faces, convex=mesh.convex, id=mesh.id
+            )
+        _scale_densities(world, scale)
+
+
+def _turned(turn: Array, vectors: Array, turns: bool) -> Array:
+    return np.asarray(rotations.rotate(turn, vectors)) if turns else vectors
+
+
+def _scale_densities(world: World, scale: float) -> None:
+    """Custom materials with their density per new unit of volume; pe's own five stay pe's."""
+    old = world.materials
+    world.materials = Materials()
+    for material in old:
+        if material.id in world.materials:
+            continue
+        values = {name: getattr(material, name) for name in VALUES}
+        values["density"] /= scale**3
+        world.create_material(material.name, id=material.id, **values)
+    for pair in old.overrides:
+        world.set_pair(
+            pair.first, pair.second, pair.restitution, pair.static_friction, pair.dynamic_friction
+        )
