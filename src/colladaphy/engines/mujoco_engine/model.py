@@ -1,0 +1,230 @@
+"""From a World to a compiled MuJoCo model, in memory.
+
+The model depends on nothing that changes while the World runs, so that it is the same one, bit by
+bit, at every checkpoint: free bodies stand at the origin, hanging bodies at zero.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.engines.mujoco_engine.axes import Freedom, Hanging, hang
+from colladaphy.engines.mujoco_engine.forest import Forest, plan
+from colladaphy.engines.mujoco_engine.frames import ORIGIN, Pose
+from colladaphy.engines.mujoco_engine.friction import Geom, surfaces
+from colladaphy.engines.mujoco_engine.inertia import principal
+from colladaphy.engines.mujoco_engine.loops import close
+from colladaphy.engines.mujoco_engine.shapes import Shapes, shapes_of
+from colladaphy.engines.rules import LIBRARY, refuse
+
+if TYPE_CHECKING:
+    from colladaphy.world import Joint, World
+
+__all__ = ["Model", "build", "count_materials"]
+
+Floats = NDArray[np.float64]
+
+_SLEEP = 0.05  # of the velocity that gravity gives in one step
+_SLEEP_MOST = 1e-3
+_FAR = 1e10  # what MuJoCo takes for infinity
+
+
+@dataclass(slots=True)
+class Model:
+    """A compiled model and where the bodies of the World are in it."""
+
+    compiled: Any
+    forest: Forest
+    hangings: dict[int, Hanging]
+    """By system id of the body that hangs."""
+    bodies: dict[int, int]
+    """MuJoCo's body ids by system id, of top-level bodies that move."""
+    geom_sids: NDArray[np.int64]
+    """System id of the top-level body of each geom."""
+
+
+def build(world: World) -> Model:
+    """Compile `world`, which `refusals.check` finds no error in; EngineError if that fails."""
+    spec = mujoco.MjSpec()
+    _set_options(spec, world)
+    forest = plan(world)
+    joints = {joint.sid: joint for joint in world.joints}
+    builder = _Builder(world, spec, forest, joints)
+    builder.add_fixed()
+    for sid in forest.order:
+        builder.add_moving(sid)
+    for number in forest.loops:
+        close(spec, joints[number], builder.bodies, _solref(world))
+    builder.add_contacts()
+    try:
+        compiled = spec.compile()
+    except (ValueError, mujoco.FatalError) as error:
+        raise refuse(LIBRARY, f"MuJoCo refuses the scene: {error}") from error
+    numbers = {sid: compiled.body(f"body{sid}").id for sid in forest.order}
+    names = builder.geom_sids
+    sids = [names[compiled.geom(i).name] for i in range(compiled.ngeom)]
+    return Model(compiled, forest, builder.hangings, numbers, np.array(sids, dtype=np.int64))
+
+
+def _solref(world: World) -> list[float]:
+    # As hard as is stable: MuJoCo asks for a time constant of two steps at least.
+    return [2.0 * float(world.time_step or 0.0), 1.0]
+
+
+def _set_options(spec: Any, world: World) -> None:
+    spec.compiler.degree = False
+    spec.compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
+    spec.compiler.alignfree = False
+    option = spec.option
+    option.timestep = world.time_step
+    option.gravity = world.gravity
+    option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    option.impratio = 10.0  # harder friction: less creep on slopes
+    option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+    gravity = float(np.linalg.norm(world.gravity))
+    option.sleep_tolerance = min(_SLEEP_MOST, _SLEEP * gravity * float(world.time_step or 0.0))
+    # A run that diverges must fail, not start again; what joints bind may collide, unless they
+    # say otherwise.
+    option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
+    option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
+
+
+class _Builder:
+    def __init__(self, world: World, spec: Any, forest: Forest, joints: dict[int, Joint]) -> None:
+        self.world = world
+        self.spec = spec
+        self.forest = forest
+        self.joints = joints
+        self.shapes = Shapes(spec, world)
+        self.surfaces = surfaces(world, count_materials(world))[0]
+        self.solref = _solref(world)
+        self.bodies: dict[int, Any] = {0: spec.worldbody}
+        self.groups: dict[int, int] = {0: 0}
+        self.hangings: dict[int, Hanging] = {}
+        self.geoms: list[Geom] = []
+        self.geom_sids: dict[str, int] = {}
+        self.rows = {sid: row for row, sid in enumerate(world.sids.tolist())}
+
+    def add_fixed(self) -> None:
+        """Fixed bodies: bodies of MuJoCo's without a joint."""
+        world = self.world
+        for row in np.flatnonzero(world.fixed).tolist():
+            sid = int(world.sids[row])
+            pose = Pose.of(world.positions[row], world.orientations[row])
+            body = self._add_body(sid, self.spec.worldbody, pose)
+            self.groups[sid] = 0
+            self._add_geoms(body, sid)
+
+    def add_moving(self, sid: int) -> None:
+        """A body that moves: free, or hanging on another one."""
+        link = self.forest.links.get(sid)
+        if link is None:
+            body = self._add_body(sid, self.spec.worldbody, ORIGIN)
+            free = body.add_joint()
+            free.type = mujoco.mjtJoint.mjJNT_FREE
+            free.name = f"free{sid}"
+            free.align = mujoco.mjtAlignFree.mjALIGNFREE_FALSE
+            self.groups[sid] = sid
+        else:
+            joint = self.joints[link.joint]
+            hanging = hang(joint, link)
+            self.hangings[sid] = hanging
+            body = self._add_body(sid, self.bodies[link.parent], hanging.zero)
+            for number, freedom in enumerate(hanging.freedoms):
+                self._add_freedom(body, joint, hanging, freedom, f"joint{joint.sid}.{number}")
+            self.groups[sid] = sid if hanging.freedoms else self.groups[link.parent]
+        row = self.rows[sid]
+        body.mass = float(self.world.masses[row])
+        body.ipos = np.zeros(3)
+        body.inertia, body.iquat = principal(self.world.inertias[row])
+        body.explicitinertial = True
+        self._add_geoms(body, sid)
+
+    def _add_body(self, sid: int, parent: Any, pose: Pose) -> Any:
+        body = parent.add_body()
+        body.name = f"body{sid}"
+        body.pos = pose.position
+        body.quat = pose.orientation
+        self.bodies[sid] = body
+        return body
+
+    def _add_freedom(
+        self, body: Any, joint: Joint, hanging: Hanging, freedom: Freedom, name: str
+    ) -> None:
+        made = body.add_joint()
+        made.name = name
+        made.type = getattr(mujoco.mjtJoint, f"mjJNT_{freedom.kind.upper()}")
+        made.align = mujoco.mjtAlignFree.mjALIGNFREE_FALSE
+        made.pos = hanging.anchor
+        made.axis = freedom.axis
+        made.solref_limit = self.solref
+        if freedom.kind == "slide":
+            low, high, spring = joint.linear_min, joint.linear_max, joint.linear_spring
+        else:
+            low, high, spring = joint.angular_min, joint.angular_max, joint.angular_spring
+        stiffness, damping, target = spring
+        made.stiffness[0] = stiffness
+        made.damping[0] = damping
+        if freedom.kind == "ball":
+            made.limited = mujoco.mjtLimited.mjLIMITED_FALSE
+            return
+        made.springref = target
+        span = [float(low[freedom.index]), float(high[freedom.index])]
+        limited = any(np.isfinite(span))
+        made.limited = getattr(mujoco.mjtLimited, f"mjLIMITED_{str(limited).upper()}")
+        if limited:
+            made.range = [max(span[0], -_FAR), min(span[1], _FAR)]
+
+    def _add_geoms(self, body: Any, sid: int) -> None:
+        for shape in shapes_of(self.world, sid):
+            name = f"geom{len(self.geoms)}"
+            geom = self.shapes.add(body, shape, shape.pose, name)
+            friction = self.surfaces.own[shape.material]
+            geom.friction = [friction, 0.0, 0.0]
+            geom.condim = 3 if friction else 1
+            geom.solref = self.solref
+            self.geoms.append(Geom(name, sid, self.groups[sid], shape.material))
+            self.geom_sids[name] = sid
+
+    def add_contacts(self) -> None:
+        """Bodies that never collide, and the pairs that have a friction of their own."""
+        apart: set[tuple[int, int]] = set()
+        for joint in self.joints.values():
+            if joint.enabled and joint.interpenetrate and joint.body1 and joint.body2:
+                one, two = sorted((joint.body1.sid, joint.body2.sid))
+                if (one, two) not in apart:
+                    exclude = self.spec.add_exclude()
+                    exclude.bodyname1, exclude.bodyname2 = f"body{one}", f"body{two}"
+                apart.add((one, two))
+        for a, b in self.surfaces.pairs(self.geoms, apart):
+            materials = (min(a.material, b.material), max(a.material, b.material))
+            friction = self.surfaces.special[materials]
+            pair = self.spec.add_pair()
+            pair.geomname1, pair.geomname2 = a.name, b.name
+            pair.friction = [friction, friction, 0.0, 0.0, 0.0]
+            pair.condim = 3 if friction else 1
+            pair.solref = self.solref
+
+
+def count_materials(world: World) -> dict[int, tuple[int, int]]:
+    """How many (moving, fixed) shapes there are of each material, by its id."""
+    counts: dict[int, tuple[int, int]] = {}
+
+    def add(ids: NDArray[np.int64], moving: NDArray[np.bool_]) -> None:
+        for id, moves in zip(ids.tolist(), moving.tolist(), strict=True):
+            if id >= 0:
+                before = counts.get(id, (0, 0))
+                counts[id] = (before[0] + moves, before[1] + (not moves))
+
+    add(world.material_ids, ~world.fixed)
+    members = world.member_columns
+    fixed = dict(zip(world.sids.tolist(), world.fixed.tolist(), strict=True))
+    roots = [fixed[world.root_of(sid)] for sid in members.sids.tolist()]
+    add(members.material_ids, ~np.array(roots, dtype=np.bool_))
+    return counts

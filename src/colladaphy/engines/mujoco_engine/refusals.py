@@ -1,0 +1,154 @@
+"""What MuJoCo cannot run, drops or approximates."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from colladaphy.engines.mujoco_engine.axes import misfit
+from colladaphy.engines.mujoco_engine.forest import plan
+from colladaphy.engines.mujoco_engine.frames import ORIGIN, Pose
+from colladaphy.engines.mujoco_engine.friction import surface_findings
+from colladaphy.engines.mujoco_engine.inertia import SLACK
+from colladaphy.engines.mujoco_engine.loops import can_close
+from colladaphy.engines.mujoco_engine.model import count_materials
+from colladaphy.engines.mujoco_engine.shapes import is_convex, is_round, shapes_of
+from colladaphy.engines.rules import (
+    INERTIA_TRIANGLE,
+    JOINT_APPROXIMATED,
+    JOINT_DISPLACED,
+    JOINT_INERT,
+    JOINT_LIMITS,
+    JOINT_LOOP,
+    MASS,
+    MESH_HULL,
+    MOVING_PLANE,
+    SHAPE_APPROXIMATED,
+    SIZE,
+)
+from colladaphy.world import Kind
+
+if TYPE_CHECKING:
+    from colladaphy.findings import Finding
+    from colladaphy.world import Body, Joint, World
+
+__all__ = ["check"]
+
+_LEAST = 1e-15  # mjMINVAL
+_MOST = 1e10  # mjMAXVAL
+_NEAR = 1e-6
+
+
+def check(world: World) -> list[Finding]:
+    """All findings about running `world`; those of severity error are refusals."""
+    findings = [*_bodies(world), *_shapes(world), *_joints(world)]
+    findings += surface_findings(world, count_materials(world))
+    return findings
+
+
+def _bodies(world: World) -> Iterator[Finding]:
+    moving = ~world.fixed
+    inertias = np.asarray(world.inertias)
+    moments = np.linalg.eigvalsh(0.5 * (inertias + np.swapaxes(inertias, 1, 2)))
+    massless = moving & ((world.masses <= 0) | (moments[:, 0] <= 0))
+    tiny = moving & ~massless & ((world.masses < _LEAST) | (moments[:, 0] < _LEAST))
+    sums = moments[:, 0] + moments[:, 1]
+    crooked = moving & ~massless & (moments[:, 2] > sums * (1 + SLACK))
+    numbers = np.concatenate(
+        [world.positions, world.linear_velocities, world.angular_velocities], axis=1
+    )
+    huge = np.any(np.abs(numbers) > _MOST, axis=1) | (world.masses > _MOST**2)
+    for row in np.flatnonzero(massless).tolist():
+        body = world.bodies[row]
+        yield MASS.at(message=f"{body!r} can move, but has the mass {body.mass:g} and the "
+                      f"principal moments of inertia {moments[row].tolist()}.")  # fmt: skip
+    for row in np.flatnonzero(crooked).tolist():
+        body = world.bodies[row]
+        yield INERTIA_TRIANGLE.at(message=f"{body!r} has the principal moments of inertia "
+                                  f"{moments[row].tolist()}.")  # fmt: skip
+    for row in np.flatnonzero(tiny | huge).tolist():
+        yield SIZE.at(message=f"{world.bodies[row]!r} has a mass, inertia, position or velocity "
+                      "beyond what MuJoCo computes with.")  # fmt: skip
+
+
+def _shapes(world: World) -> Iterator[Finding]:
+    convex: dict[int, bool] = {}
+    unusual = np.isin(world.kinds, [Kind.UNION, Kind.MESH, Kind.PLANE, Kind.CAPSULE, Kind.CYLINDER])
+    for row in np.flatnonzero(unusual).tolist():
+        body: Body = world.bodies[row]
+        for shape in shapes_of(world, body.sid):
+            if shape.kind is Kind.PLANE and not body.fixed:
+                yield MOVING_PLANE.at(message=f"{body!r} holds a plane, but is not fixed.")
+            if not is_round(shape):
+                yield SHAPE_APPROXIMATED.at(
+                    message=f"{body!r} has a {shape.kind.name.lower()} of elliptic section: "
+                    "a polyhedron of 32 sides is taken for it."
+                )
+            if shape.kind is Kind.MESH:
+                if shape.mesh not in convex:
+                    mesh = world.meshes[shape.mesh]
+                    convex[shape.mesh] = mesh.convex or is_convex(mesh)
+                if not convex[shape.mesh]:
+                    message = f"{body!r} is not convex: its convex hull collides."
+                    yield MESH_HULL.at(message=message)
+
+
+def _joints(world: World) -> Iterator[Finding]:
+    forest = plan(world)
+    loops, inert = set(forest.loops), set(forest.inert)
+    for joint in world.joints:
+        if not joint.enabled:
+            continue
+        if joint.sid in inert:
+            yield JOINT_INERT.at(message=f"{joint!r} binds what cannot move.")
+            continue
+        if np.any(joint.linear_min > joint.linear_max) or np.any(
+            joint.angular_min > joint.angular_max
+        ):
+            yield JOINT_LIMITS.at(message=f"{joint!r} has a lower limit above the upper one.")
+            continue
+        if joint.sid in loops:
+            if can_close(joint):
+                yield JOINT_APPROXIMATED.at(
+                    message=f"{joint!r} closes a loop: a constraint keeps it that gives way a "
+                    "little under load."
+                )
+            else:
+                yield JOINT_LOOP.at(message=f"{joint!r} closes a loop.")
+        yield from _approximations(joint)
+        yield from _displacement(joint)
+
+
+def _approximations(joint: Joint) -> Iterator[Finding]:
+    shifts = joint.linear_min != joint.linear_max
+    turns = joint.angular_min != joint.angular_max
+    limited = turns & ~(np.isinf(joint.angular_min) & np.isinf(joint.angular_max))
+    if turns.sum() > 1 and limited.any():
+        message = f"{joint!r}: its angles are limited as turns about x, then y, then z."
+        yield JOINT_APPROXIMATED.at(message=message)
+    for axes, spring, what in (
+        (shifts, joint.linear_spring, "linear"),
+        (turns, joint.angular_spring, "angular"),
+    ):
+        if axes.sum() > 1 and any(spring[:2]) and spring[2] != 0.0:
+            message = f"{joint!r}: the target of its {what} spring is that of each axis."
+            if what == "angular" and axes.all() and not limited.any():
+                message = f"{joint!r}: the target of its angular spring is taken for zero."
+            yield JOINT_APPROXIMATED.at(message=message)
+
+
+def _displacement(joint: Joint) -> Iterator[Finding]:
+    one, two = (
+        ORIGIN if body is None else Pose.of(body.position, body.orientation)
+        for body in (joint.body1, joint.body2)
+    )
+    off, angle = misfit(joint, one, two)
+    reach = max(
+        float(np.abs(vector).max())
+        for vector in (one.position, two.position, joint.frame1[0], joint.frame2[0])
+    )
+    if off > _NEAR * (1.0 + reach) or angle > _NEAR:
+        message = f"{joint!r}: its frames are {off:g} and {angle:g} rad apart."
+        yield JOINT_DISPLACED.at(message=message)
