@@ -1,0 +1,91 @@
+"""What commands say, and to whom: results to standard output, all else to standard error."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, TypeVar
+
+import click
+
+if TYPE_CHECKING:
+    from colladaphy.findings import Finding, Report
+
+__all__ = [
+    "EXIT_FINDINGS",
+    "EXIT_INTERNAL",
+    "EXIT_IO",
+    "note",
+    "note_changes",
+    "say",
+    "say_findings",
+    "say_report",
+    "steps",
+]
+
+EXIT_FINDINGS = 1
+EXIT_IO = 2
+EXIT_INTERNAL = 3
+
+_COLOURS = {"error": "red", "warning": "yellow", "info": "blue", "hint": "cyan", "valid": "green"}
+_Item = TypeVar("_Item")
+
+
+def _paint(text: str, severity: str) -> str:
+    return click.style(text, fg=_COLOURS.get(severity), bold=severity == "error")
+
+
+def _colour() -> bool | None:
+    """None lets click decide: colours on a terminal, none in a file (https://no-color.org)."""
+    return False if os.environ.get("NO_COLOR") else None
+
+
+def say(text: str) -> None:
+    """A line of the result."""
+    click.echo(text, color=_colour())
+
+
+def note(text: str) -> None:
+    """A line that is not part of the result."""
+    click.echo(text, err=True, color=_colour())
+
+
+def say_report(report: Report) -> None:
+    """A report as text."""
+    from colladaphy.validation.reporters.text import as_text
+
+    for line in as_text(report, paint=_paint):
+        say(line)
+
+
+def note_changes(report: Report, most: int | None = 3) -> None:
+    """What was changed, to standard error."""
+    from colladaphy.validation.reporters.text import changes
+
+    for line in changes(report, paint=_paint, most=most):
+        note(line)
+
+
+def say_findings(findings: Iterable[Finding]) -> None:
+    """What went wrong, to standard error; what was merely noticed before it is left out."""
+    from colladaphy.findings import Severity
+    from colladaphy.validation.reporters.text import finding_lines
+
+    known = list(findings)
+    faults = [finding for finding in known if finding.severity is Severity.ERROR]
+    for finding in faults or known:
+        for line in finding_lines(finding, _paint):
+            note(line)
+
+
+def steps(items: Iterable[_Item], label: str) -> Iterator[_Item]:
+    """The items, counted on standard error while a person looks on."""
+    known = list(items)
+    if len(known) < 2 or not sys.stderr.isatty():
+        yield from known
+        return
+    for number, item in enumerate(known, 1):
+        click.echo(f"\r{label} {number}/{len(known)}", err=True, nl=False)
+        yield item
+    click.echo("\r\033[K", err=True, nl=False)

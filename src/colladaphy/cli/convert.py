@@ -1,0 +1,54 @@
+"""``colladaphy convert``."""
+
+from __future__ import annotations
+
+import click
+
+from colladaphy.cli.console import note_changes
+from colladaphy.cli.files import convention_option, source_of, target_of
+from colladaphy.cli.reporting import write_report
+
+__all__ = ["command"]
+
+
+@click.command("convert")
+@click.argument("source", metavar="IN")
+@click.argument("target", metavar="OUT")
+@click.option("--report", "report_file", metavar="FILE", help="Write what was changed to FILE.")
+@click.option(
+    "--for",
+    "reader",
+    type=click.Choice(["collada", "collada-1.4", "bullet"]),
+    default="collada",
+    show_default=True,
+    help="Who will read it: readers of COLLADA 1.5, of 1.4.1, or Bullet's converter (1.4.1).",
+)
+@convention_option
+def command(
+    source: str, target: str, report_file: str | None, reader: str, convention: str
+) -> None:
+    """Read a document of any version, mend it, and write it as valid COLLADA.
+
+    What was changed goes to standard error, or to the FILE of --report (as JSON where its name
+    ends in .json). IN is never changed, and OUT only as a whole.
+    """
+    from colladaphy.validation.mending import mend
+
+    mended = mend(source_of(source), convention=convention)
+    report = mended.report
+    tree = mended.tree
+    if reader == "bullet":
+        from colladaphy.conform.bullet import for_bullet
+
+        tree, changes = for_bullet(tree)
+        report.extend(changes)
+    elif reader == "collada-1.4":
+        from colladaphy.conform.downgrade import to_collada_1_4
+
+        tree, changes = to_collada_1_4(tree)
+        report.extend(changes)
+    mended.save(target_of(target), tree)
+    if report_file is not None:
+        write_report(report, report_file)
+    elif report.findings:
+        note_changes(report)

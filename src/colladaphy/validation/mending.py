@@ -1,0 +1,84 @@
+"""Mending a file as a whole: read any version, conform, check, and write it again."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from os import PathLike, fspath
+
+from lxml import etree
+
+from colladaphy.errors import SchemaError
+from colladaphy.findings import Report
+from colladaphy.schema import gate
+from colladaphy.source import Limits, Parsed, Source, Target, pack, parse, save
+
+__all__ = ["Mended", "mend", "unified_diff"]
+
+
+@dataclass(frozen=True, slots=True)
+class Mended:
+    """A document before and after it was mended; `tree` is valid COLLADA 1.5."""
+
+    parsed: Parsed
+    tree: etree._ElementTree
+    report: Report
+
+    def save(self, target: Target, tree: etree._ElementTree | None = None) -> None:
+        """Write the document atomically, or `tree` in its stead.
+
+        An archive's other files are kept where the target's name ends in .zae.
+        """
+        data = serialise(self.tree if tree is None else tree)
+        if isinstance(target, str | PathLike) and fspath(target).lower().endswith(".zae"):
+            data = self._packed(data)
+        save(data, target)
+
+    def _packed(self, data: bytes) -> bytes:
+        archive, member = self.parsed.archive, self.parsed.member
+        if archive is None or member is None:
+            return pack(data)
+        kept = [name for name in archive.names if name not in (member, "manifest.xml")]
+        return pack(data, name=member, others={name: archive.read(name) for name in kept})
+
+
+def mend(
+    source: Source,
+    *,
+    convention: str = "auto",
+    only: Collection[str] | None = None,
+    limits: Limits | None = None,
+) -> Mended:
+    """Read a document of any version and make it valid COLLADA 1.5.
+
+    `only` limits the changes to these codes. Every change is in the report. Raises InputError and
+    XmlError where it cannot be read, and SchemaError with what is still wrong where it cannot be
+    made valid.
+    """
+    from colladaphy.conform import conform
+
+    parsed = parse(source, limits or Limits())
+    tree, changes = conform(parsed.tree, file=parsed.file, convention=convention, only=only)
+    report = Report(parsed.file)
+    report.extend(changes)
+    faults = Report(parsed.file)
+    faults.extend(gate(tree))
+    if faults.findings:
+        raise SchemaError(faults.findings)
+    return Mended(parsed, tree, report)
+
+
+def serialise(tree: etree._ElementTree) -> bytes:
+    """A tree as the bytes of a UTF-8 file."""
+    return etree.tostring(tree, encoding="UTF-8", xml_declaration=True) + b"\n"
+
+
+def unified_diff(mended: Mended) -> Iterator[str]:
+    """The lines of a unified diff from the document as it was to the mended one."""
+    from difflib import unified_diff as compare
+
+    name = mended.parsed.file or "-"
+    before, after = (
+        serialise(tree).decode().splitlines() for tree in (mended.parsed.tree, mended.tree)
+    )
+    return compare(before, after, name, f"{name} (mended)", lineterm="")
