@@ -215,3 +215,11 @@ def test_missing_hypothesis_is_explained() -> None:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 1
     assert "ImportError: colladaphy.testing needs hypothesis: pip install" in done.stderr
+
+
+@settings(many, max_examples=50)
+@given(document=mutants())
+def test_coverage_takes_note_of_invalid_documents_too(document: bytes) -> None:
+    coverage = Coverage()
+    coverage.record(document)
+    assert coverage.reached <= coverage.reachable

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from xmlschema.validators import XsdList, XsdUnion
+
 ANY = "anyType"
 
 
@@ -27,11 +29,11 @@ def ancestors(declared: Any) -> tuple[tuple[str, frozenset[str]], ...]:
 def _method(declared: Any) -> str:
     if getattr(declared, "derivation", None):
         return str(declared.derivation)
-    if declared.is_complex():
-        return "restriction"  # without a base: a restriction of anyType
-    if declared.base_type is None:
-        return "union" if hasattr(declared, "member_types") else "list"
-    return "restriction"
+    if isinstance(declared, XsdList):
+        return "list"
+    if isinstance(declared, XsdUnion):
+        return "union"
+    return "restriction"  # a complex type without a base restricts anyType
 
 
 def control(value: Any) -> frozenset[str]:

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from xmlschema.validators import XsdList, XsdUnion
+
 XSD = "{http://www.w3.org/2001/XMLSchema}"
 
 Signature = tuple[Any, ...]
@@ -23,11 +25,11 @@ def signature(simple: Any, names: bool) -> Signature:
             root: Signature = ("builtin", simple.name.removeprefix(XSD))
             inherited = _own_facets(simple)
             break
-        if simple.is_list() and simple.derivation is None and hasattr(simple, "item_type"):
+        if isinstance(simple, XsdList):
             root = ("list of", signature(simple.item_type, names))
             inherited = {"whiteSpace": "collapse"}
             break
-        if hasattr(simple, "member_types") and simple.base_type is None:
+        if isinstance(simple, XsdUnion):
             root = ("union of", tuple(_members(simple, names)))
             inherited = {"whiteSpace": "collapse"}
             break

@@ -60,7 +60,7 @@ class Coverage:
 
     def _element(self, element: etree._Element, declared: ComplexType | SimpleType) -> None:
         derived = element.get(f"{{{XSI}}}type")
-        kind = declared if derived is None else grammar()[derived.rpartition(":")[2]]
+        kind = declared if derived is None else grammar().get(derived.rpartition(":")[2], declared)
         if not isinstance(kind, ComplexType):
             return
         known = components()

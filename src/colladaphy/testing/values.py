@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from colladaphy.conform.grammar import SimpleType
 
-__all__ = ["example", "matches", "texts"]
+__all__ = ["example", "texts"]
 
 INTEGERS: dict[str, tuple[int | None, int | None]] = {
     "integer": (None, None),
@@ -180,11 +180,6 @@ def expression(pattern: str) -> re.Pattern[str]:
     return re.compile(pattern)
 
 
-def matches(simple: SimpleType, text: str) -> bool:
-    """Whether a text has the pattern of a simple type, if it has one."""
-    return simple.pattern is None or expression(simple.pattern).fullmatch(text) is not None
-
-
 def example(simple: SimpleType) -> str:
     """One valid text of a simple type, always the same."""
     if simple.enumeration:
@@ -194,7 +189,8 @@ def example(simple: SimpleType) -> str:
     if simple.item is not None:
         return " ".join([example(simple.item)] * max(1, _length(simple)[0]))
     if simple.pattern is not None:
-        return next(text for text in CANDIDATES if matches(simple, text))
+        pattern = expression(simple.pattern)
+        return next(text for text in CANDIDATES if pattern.fullmatch(text))
     if simple.primitive in INTEGERS:
         return str(_bounds(simple)[0]) if _bounds(simple)[0] > 0 else "0"
     return EXAMPLES.get(simple.primitive, "a")
