@@ -104,6 +104,10 @@ class Draft:
         for name in names:
             yield from self._by_name.get(name, ())
 
+    def changed(self) -> None:
+        """Let `all` look again: elements came, went or were renamed."""
+        self._by_name = None
+
     def everything(self) -> Iterator[etree._Element]:
         """Every element of the standard."""
         return _standard_elements(self.root)
