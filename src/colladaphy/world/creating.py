@@ -14,7 +14,7 @@ from colladaphy.world.creation import prepare
 from colladaphy.world.kinds import Kind
 from colladaphy.world.materials import Material
 from colladaphy.world.meshes import Mesh
-from colladaphy.world.rules import COLUMNS, MESH, SYSTEM_ID, refuse
+from colladaphy.world.rules import COLUMNS, DIMENSION, MESH, SYSTEM_ID, refuse
 from colladaphy.world.viewing import Viewing
 
 __all__ = ["BodyOptions", "Creating"]
@@ -77,7 +77,7 @@ class Creating(Viewing):
 
         `radius` is a number, or the semi-axes x (of the caps), y and z.
         """
-        radii = _positives("radius", np.broadcast_to(np.asarray(radius, dtype=float), (3,)), 3)
+        radii = _positives("radius", radius, 3)
         row = (*radii, values.positive("length", length))
         return self._create(Kind.CAPSULE, uid, position, row, material, options)
 
@@ -91,7 +91,7 @@ class Creating(Viewing):
         **options: Unpack[BodyOptions],
     ) -> Body:
         """A cylinder along x. `radius` is a number, or the semi-axes y and z."""
-        radii = _positives("radius", np.broadcast_to(np.asarray(radius, dtype=float), (2,)), 2)
+        radii = _positives("radius", radius, 2)
         row = (0.0, *radii, values.positive("length", length))
         return self._create(Kind.CYLINDER, uid, position, row, material, options)
 
@@ -259,7 +259,8 @@ class Creating(Viewing):
 
 
 def _positives(what: str, given: ArrayLike, count: int) -> list[float]:
-    array = np.asarray(given, dtype=np.float64)
-    if array.shape != (count,):
-        raise refuse(COLUMNS, f"A {what} is needed for each of {count} axes, not {given!r}.")
-    return [values.positive(what, number) for number in array.tolist()]
+    """One number an axis; a single one stands for all."""
+    array = np.asarray(given, dtype=object)
+    if array.shape not in ((), (count,)):
+        raise refuse(DIMENSION, f"A {what} is needed for each of {count} axes, not {given!r}.")
+    return [values.positive(what, number) for number in np.broadcast_to(array, (count,)).tolist()]

@@ -82,6 +82,11 @@ def _check_dimensions(values: dict[str, Array]) -> None:
                 DIMENSION, f"The {COUNTS[kind]} of a {kind.name.lower()} are {bad}: "
                 "all have to be positive.",
             )  # fmt: skip
+        others = [column for column in range(4) if column not in needed]
+        if dimensions[rows][:, others].any():
+            raise refuse(
+                DIMENSION, f"Dimensions that a {kind.name.lower()} does not have are not zero."
+            )
     planes = dimensions[kinds == Kind.PLANE]
     if not np.all(np.isfinite(planes)) or not np.all(np.any(planes[:, :3] != 0, axis=1)):
         raise refuse(DIMENSION, "The normal of a plane is zero or not finite.")

@@ -227,7 +227,10 @@ class Joints(Sequence[Joint]):
 
 def limits(what: str, low: Limits, high: Limits) -> Floats:
     """Lower and upper limits as (2, 3)."""
-    array = np.array([low, high], dtype=np.float64)
+    try:
+        array = np.array([low, high], dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise refuse(JOINT_VALUE, f"The {what} limits are {low!r} and {high!r}.") from error
     if array.shape != (2, 3) or np.any(np.isnan(array)):
         raise refuse(JOINT_VALUE, f"The {what} limits are {low!r} and {high!r}.")
     return array

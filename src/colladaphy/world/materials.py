@@ -204,9 +204,9 @@ class Materials:
         if second.id < self.DEFAULT_COUNT:
             restitution, static, dynamic = 0.25, 0.2, 0.2
         else:
-            restitution = math.sqrt(
-                first.restitution**2 * (stiffness / first.stiffness)
-                + second.restitution**2 * (stiffness / second.stiffness)
+            restitution = math.hypot(
+                first.restitution * math.sqrt(stiffness / first.stiffness),
+                second.restitution * math.sqrt(stiffness / second.stiffness),
             )
             static = first.static_friction + second.static_friction
             dynamic = first.dynamic_friction + second.dynamic_friction

@@ -7,6 +7,7 @@ act on column vectors from the left.
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -69,12 +70,18 @@ def normalize(quaternion: ArrayLike) -> Floats:
 
 def rotate(quaternion: ArrayLike, vector: ArrayLike) -> Floats:
     """`vector` (..., 3) rotated by `quaternion` (..., 4)."""
-    return np.asarray(np.einsum("...ij,...j->...i", to_matrix(quaternion), _floats(vector)))
+    return _apply(to_matrix(quaternion), _floats(vector))
 
 
 def unrotate(quaternion: ArrayLike, vector: ArrayLike) -> Floats:
     """`vector` (..., 3) rotated by the inverse of `quaternion` (..., 4)."""
-    return np.asarray(np.einsum("...ji,...j->...i", to_matrix(quaternion), _floats(vector)))
+    return _apply(np.swapaxes(to_matrix(quaternion), -1, -2), _floats(vector))
+
+
+def _apply(matrix: Floats, vector: Floats) -> Floats:
+    # Term by term, as BLAS gives other bits to arrays that lie in memory differently.
+    x, y, z = (vector[..., i, None] for i in range(3))
+    return np.asarray(matrix[..., 0] * x + matrix[..., 1] * y + matrix[..., 2] * z)
 
 
 def rotate_tensor(quaternion: ArrayLike, tensor: ArrayLike) -> Floats:
@@ -143,7 +150,7 @@ def to_axis_angle(quaternion: ArrayLike) -> tuple[Floats, Floats]:
     q = normalize(quaternion)
     q = q * np.where(q[..., :1] < 0, -1.0, 1.0)
     vector = q[..., 1:]
-    length = np.sqrt(np.sum(vector * vector, axis=-1, keepdims=True))
+    length = np.hypot(np.hypot(vector[..., :1], vector[..., 1:2]), vector[..., 2:])
     still = np.broadcast_to(np.array([1.0, 0.0, 0.0]), vector.shape).copy()
     axis = np.divide(vector, length, out=still, where=length > 0)
     return axis, np.asarray(2.0 * np.arctan2(length[..., 0], q[..., 0]))
@@ -158,17 +165,24 @@ def fixed_angles(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Floats:
 
 
 def between(start: ArrayLike, end: ArrayLike) -> Floats:
-    """The shortest rotation (4,) that turns the direction `start` (3,) onto `end` (3,)."""
-    a = _floats(start) / np.linalg.norm(start)
-    b = _floats(end) / np.linalg.norm(end)
-    cosine = float(a @ b)
+    """A rotation (4,) that turns the direction `start` (3,) onto `end` (3,).
+
+    It is the shortest one, unless the two are opposite to within a few minutes of arc.
+    """
+    ax, ay, az = _direction(start)
+    bx, by, bz = _direction(end)
+    cosine = ax * bx + ay * by + az * bz
     if cosine < -0.999999:
-        # Nearly opposite: half a turn about any axis across, then what is left.
+        # Half a turn about any axis across is exact; what is left is small.
         across = np.zeros(3)
-        across[np.argmin(np.abs(a))] = 1.0
-        half = np.concatenate([[0.0], np.cross(a, across)])
-        half = normalize(half)
-        if cosine == -1.0:
-            return half
-        return multiply(between(-a, b), half)
-    return normalize(np.concatenate([[1.0 + cosine], np.cross(a, b)]))
+        across[np.argmin(np.abs([ax, ay, az]))] = 1.0
+        half = normalize([0.0, *np.cross((ax, ay, az), across).tolist()])
+        return multiply(between((-ax, -ay, -az), end), half)
+    cross = (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
+    return normalize([1.0 + cosine, *cross])
+
+
+def _direction(vector: ArrayLike) -> tuple[float, float, float]:
+    x, y, z = (float(number) for number in _floats(vector))
+    length = math.hypot(x, y, z)
+    return x / length, y / length, z / length
