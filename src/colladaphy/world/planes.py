@@ -6,6 +6,8 @@ were given as long as they agree with it to rounding, and follow from it where t
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -24,9 +26,9 @@ def agreeing(dimensions: Floats, position: Floats, orientation: Floats) -> Float
     turned = rotations.to_matrix(orientation)[:, 2]
     if not np.all(np.abs(turned - result[:3]) <= _ROUNDING):
         result[:3] = turned
-    with np.errstate(all="ignore"):
-        products = (result[:3] * position).tolist()
+    normal, stored = result[:3].tolist(), float(result[3])
+    products = [a * b for a, b in zip(normal, position.tolist(), strict=True)]
     derived = sum(products)
-    if not abs(derived - result[3]) <= _ROUNDING * sum(map(abs, products)):
+    if math.isfinite(derived) and abs(derived - stored) > _ROUNDING * sum(map(abs, products)):
         result[3] = derived
     return result
