@@ -16,8 +16,7 @@ __all__ = ["CONFORM", "NS", "Context", "local"]
 
 NS = "{" + NAMESPACE + "}"
 CONFORM = "urn:colladaphy:conform:1"
-# The stubs of lxml do not know that a prefix may be None.
-OWN_MAP = cast(Mapping[str, str], {None: CONFORM})
+OWN_MAP = {"conform": CONFORM}
 
 
 def local(element: etree._Element) -> str:
@@ -53,6 +52,7 @@ class Context:
         self.origin = origin
         self.far_lines: dict[etree._Element, int] = {}
         self._only = None if only is None else frozenset(only)
+        # The stubs of lxml do not know that a prefix may be None.
         self._map = cast(Mapping[str, str], {root.prefix: NAMESPACE})
         self._labels: dict[etree._Element, dict[etree._Element, str]] = {}
         self._places: dict[tuple[etree._Element, str], etree._Element] = {}

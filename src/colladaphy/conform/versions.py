@@ -46,7 +46,8 @@ def copy_as_1_5(
     The second value holds the lines beyond 65535, which the tree itself cannot keep.
     """
     old = tree.getroot()
-    if all(_is_current(element) for element in old.iter(etree.Element)):
+    current = etree.QName(old).namespace == NAMESPACE
+    if current and not any(_is_old(str(element.tag)) for element in old.iter(etree.Element)):
         twin = copy.deepcopy(tree)
         root = twin.getroot()
     else:
@@ -63,10 +64,6 @@ def copy_as_1_5(
             if (line := line_of(before) or 0) >= _FAR:
                 far[after] = line
     return twin, far
-
-
-def _is_current(element: etree._Element) -> bool:
-    return not _is_old(str(element.tag))
 
 
 def _is_old(tag: str) -> bool:

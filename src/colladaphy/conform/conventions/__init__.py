@@ -53,15 +53,15 @@ CONVENTIONS: tuple[Convention, ...] = (
         _bullet,
     ),
     Convention(
-        "openrave",
-        "mass frames and shapes in the model's space",
-        model_frames.recognise_openrave,
-        _frames,
-    ),
-    Convention(
         "ros",
         "urdf_to_collada: mass frames and shapes in the model's space",
         model_frames.recognise_ros,
+        _frames,
+    ),
+    Convention(
+        "openrave",
+        "mass frames and shapes in the model's space",
+        model_frames.recognise_openrave,
         _frames,
     ),
     Convention(

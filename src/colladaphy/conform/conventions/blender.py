@@ -16,7 +16,8 @@ from colladaphy.conform.solids import numbers_of
 __all__ = ["apply", "recognise"]
 
 _UPRIGHT = ("cylinder", "tapered_cylinder")
-_TURN = "1 0 0 90"
+# Blender's cones have their first radius at the -z end; COLLADA's have it at the +y end.
+_TURN = "1 0 0 -90"
 _Reading = tuple[str, float]
 _STANDARD: _Reading = ("y", 1.0)
 

@@ -1,0 +1,63 @@
+"""Documents for readers of COLLADA 1.4.1: converted, checked and as bytes."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Literal, get_args
+
+from lxml import etree
+
+from colladaphy.conform.bullet import for_bullet
+from colladaphy.conform.downgrade import NS14, to_collada_1_4
+from colladaphy.conform.downgrade.rules import INVALID
+from colladaphy.errors import SchemaError
+from colladaphy.findings import Finding
+
+__all__ = ["TARGETS", "Target", "export"]
+
+Target = Literal["bullet", "collada-1.4"]
+TARGETS: tuple[Target, ...] = get_args(Target)
+
+
+def export(tree: etree._ElementTree, target: Target) -> tuple[bytes, list[Finding]]:
+    """A schema-valid 1.5 `tree` as the bytes of a 1.4.1 document, and what was changed.
+
+    `target` is ``"bullet"`` for what Bullet's converter reads (thesis 5.6) or ``"collada-1.4"``
+    for the standard's own meaning. The result is checked against the 1.4.1 schema where pycollada,
+    which ships it, is installed. Raises SchemaError where the result is not valid, which can only
+    be when `tree` was not; ValueError for another target.
+    """
+    if target not in TARGETS:
+        raise ValueError(f"cannot export for {target!r}; choose one of {', '.join(TARGETS)}")
+    convert = for_bullet if target == "bullet" else to_collada_1_4
+    new, findings = convert(tree)
+    data = etree.tostring(new, xml_declaration=True, encoding="UTF-8") + b"\n"
+    errors = _errors(data)
+    if errors:
+        raise SchemaError(errors)
+    return data, findings
+
+
+def _errors(data: bytes) -> list[Finding]:
+    """What is wrong with the bytes that are about to be given out."""
+    root = etree.fromstring(data, etree.XMLParser(resolve_entities=False, huge_tree=True))
+    if root.tag != f"{{{NS14}}}COLLADA" or root.get("version") != "1.4.1":
+        return [INVALID.at(root, f"The root of the result is {root.tag}.")]
+    schema = _schema()
+    if schema is None or schema.validate(etree.ElementTree(root)):
+        return []
+    return [
+        INVALID.at(message=error.message, line=error.line, column=error.column)
+        for error in schema.error_log
+    ]
+
+
+@cache
+def _schema() -> etree.XMLSchema | None:
+    """The 1.4.1 schema that pycollada ships; None where that is not installed."""
+    try:
+        from collada.schema import ColladaValidator
+    except ImportError:
+        return None
+    schema: etree.XMLSchema = ColladaValidator().COLLADA_SCHEMA_1_4_1_INSTANCE
+    return schema

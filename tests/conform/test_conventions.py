@@ -1,0 +1,222 @@
+"""What producers mean otherwise than the standard."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from lxml import etree
+from tests.conform.documents import ASSET, BOX, MESH, C, codes, document, mended, physics, words
+
+from colladaphy.conform import conform
+from colladaphy.conform.conventions import CONVENTIONS
+from colladaphy.conform.frames import transform_of
+
+
+def asset(tool: str, unit: str = "") -> str:
+    contributor = f"<contributor><authoring_tool>{tool}</authoring_tool></contributor>"
+    return ASSET.replace("<asset>", "<asset>" + contributor).replace("</asset>", unit + "</asset>")
+
+
+def robot(mass_frame: str, shape: str, tool: str = "OpenRAVE") -> etree._ElementTree:
+    """Two links; the second hangs 1 along x and 2 up, turned by 90 degrees about z."""
+    geometry = '<instance_geometry url="#g"/>'
+    nodes = (
+        f'<node id="root"><translate>50 0 0</translate><node id="n1">{geometry}'
+        "<node id='n2'><translate>1 0 2</translate><rotate>0 0 1 90</rotate>"
+        f"<node><translate>0 0 0.5</translate>{geometry}</node></node></node></node>"
+    )
+    bodies = "".join(
+        f'<rigid_body sid="b{i}"><technique_common><mass>1</mass>{frame}<inertia>1 2 3</inertia>'
+        f'<shape><instance_geometry url="#g"/>{place}</shape></technique_common></rigid_body>'
+        for i, frame, place in ((1, "", ""), (2, f"<mass_frame>{mass_frame}</mass_frame>", shape))
+    )
+    instances = "".join(
+        f'<instance_rigid_body body="b{i}" target="#n{i}"><technique_common/></instance_rigid_body>'
+        for i in (1, 2)
+    )
+    tree = physics(bodies=bodies, instances=instances, nodes=nodes, asset=asset(tool))
+    tree.getroot().find(f".//{C}instance_physics_model").set("parent", "#root")
+    library = document(
+        f'<library_geometries><geometry id="g"><mesh>{MESH.format("g")}</mesh></geometry>'
+        "</library_geometries>"
+    ).getroot()[1]
+    tree.getroot().insert(1, library)
+    return tree
+
+
+IN_MODEL = "<translate>1 0 2.5</translate><rotate>0 0 1 90</rotate>"
+IN_BODY = "<translate>0 0 0.5</translate>"
+
+
+def places(root: etree._Element) -> tuple[np.ndarray, np.ndarray]:
+    body = root.findall(f".//{C}rigid_body")[1]
+    common = body.find(C + "technique_common")
+    return transform_of(common.find(C + "mass_frame")), transform_of(common.find(C + "shape"))
+
+
+@pytest.mark.parametrize("tool", ["OpenRAVE 0.9", "URDF Collada Writer", "OpenHRP3"])
+def test_frames_in_the_models_space_come_into_the_bodys(tool: str) -> None:
+    root, findings = mended(robot(IN_MODEL, IN_MODEL, tool))
+    expected = np.eye(4)
+    expected[2, 3] = 0.5
+    for place in places(root):
+        assert place == pytest.approx(expected, abs=1e-12)
+    assert codes(findings) == {"convention-chosen", "convention-frames"}
+    assert "1 fit the model's space" in findings[1].message
+
+
+def test_frames_that_are_local_stay_as_they_are() -> None:
+    root, findings = mended(robot(IN_BODY, IN_BODY))
+    for place in places(root):
+        assert place[:3, 3] == pytest.approx([0, 0, 0.5])
+    assert codes(findings) == {"convention-chosen", "convention-frames-local"}
+
+
+def test_mass_frames_and_shapes_are_judged_apart() -> None:
+    root, findings = mended(robot(IN_MODEL, IN_BODY))
+    for place in places(root):
+        assert place[:3, 3] == pytest.approx([0, 0, 0.5])
+    assert codes(findings) >= {"convention-frames", "convention-frames-local"}
+
+
+def test_a_named_convention_is_obeyed_with_a_warning() -> None:
+    root, findings = mended(robot(IN_BODY, IN_BODY, "something"), convention="openrave")
+    assert places(root)[0][:3, 3] == pytest.approx([0, 1, -1.5])
+    assert "convention-frames-doubtful" in codes(findings)
+
+
+def test_none_takes_the_standards_meaning() -> None:
+    root, findings = mended(robot(IN_MODEL, IN_MODEL), convention="none")
+    assert places(root)[0][:3, 3] == pytest.approx([1, 0, 2.5])
+    assert findings == []
+
+
+def test_other_names_are_refused() -> None:
+    with pytest.raises(ValueError, match="openrave"):
+        conform(physics(BOX), convention="opnrave")
+
+
+LIMITS = (
+    '<rigid_constraint sid="j"><ref_attachment rigid_body=""/><attachment rigid_body="pm/b1"/>'
+    "<technique_common><limits><swing_cone_and_twist><min>{0}</min><max>{1}</max>"
+    "</swing_cone_and_twist><linear><min>0 1 0</min><max>0 0 0</max></linear></limits>"
+    "</technique_common></rigid_constraint>"
+)
+MOVING = (
+    '<instance_rigid_body body="b1" target="#n1"><technique_common><angular_velocity>0 3.5 0'
+    "</angular_velocity></technique_common></instance_rigid_body>"
+)
+
+
+def test_bullets_radians_planes_and_heights() -> None:
+    shapes = (
+        "<shape><plane><equation>0 0 2 6</equation></plane></shape>"
+        "<shape><cylinder><height>1.5</height><radius>1 1</radius></cylinder></shape>"
+    )
+    tree = physics(
+        shapes,
+        more=LIMITS.format("-1 1 0", "1 -1 200"),
+        instances=MOVING,
+        asset=asset("Bullet ColladaConverter (BulletColladaConverter)"),
+    )
+    root, findings = mended(tree)
+    assert words(root, "equation") == ["0", "0", "2", "-12"]
+    assert words(root, "height") == ["3"]
+    assert [float(v) for v in words(root, "angular_velocity")] == [0, np.degrees(3.5), 0]
+    low, high = words(root, "swing_cone_and_twist/min"), words(root, "swing_cone_and_twist/max")
+    assert [float(v) for v in low] == [-np.degrees(1), -np.inf, 0]
+    assert [float(v) for v in high] == [np.degrees(1), np.inf, np.inf]
+    assert words(root, "linear/min") == ["0", "-INF", "0"]
+    assert codes(findings) == {
+        "convention-chosen", "convention-angle-unit", "convention-plane-sign",
+        "convention-half-height", "convention-free-limits",
+    }  # fmt: skip
+
+
+def test_bullet_leaves_the_shapes_of_what_it_only_edits() -> None:
+    shapes = "<shape><plane><equation>0 0 1 6</equation></plane></shape>"
+    extra = (
+        '</physics_model><physics_model id="Bullet-PhysicsModel"><rigid_body sid="x">'
+        f"<technique_common>{shapes}</technique_common></rigid_body>"
+    )
+    root, _ = mended(physics(shapes, more=extra))
+    assert [e.text for e in root.iter(C + "equation")] == ["0 0 1 6", "0 0 1 -6"]
+
+
+def test_axes_with_min_above_max_are_free_whoever_wrote_them() -> None:
+    root, findings = mended(physics(BOX, more=LIMITS.format("5 0 0", "-5 0 0")))
+    assert words(root, "swing_cone_and_twist/min") == ["-INF", "0", "0"]
+    assert codes(findings) == {"convention-free-limits"}
+
+
+def test_nxustreams_angular_velocity_and_restitution() -> None:
+    spring = (
+        LIMITS.format("0 0 0", "0 0 0")
+        .replace(
+            "</limits>",
+            "</limits><spring><angular><target_value>0.5</target_value></angular></spring>",
+        )
+        .replace("0 1 0", "0 0 0")
+        .replace("<angular>", "<angular><stiffness>0</stiffness>")
+    )
+    root, findings = mended(
+        physics(BOX, more=spring, instances=MOVING, asset=asset("NxuStream2 2.3"))
+    )
+    assert float(words(root, "angular_velocity")[1]) == np.degrees(3.5)
+    assert root.find(f".//{C}spring/{C}angular/{C}target_value") is None
+    assert codes(findings) >= {"convention-angle-unit", "convention-restitution"}
+
+
+def test_colladamayas_gravity_and_hollow_shapes() -> None:
+    hollow = BOX.replace("<shape>", "<shape><hollow>true</hollow>")
+    heavy = BOX.replace("<shape>", "<shape><hollow>true</hollow><mass>2</mass>")
+    tree = physics(
+        hollow + heavy, asset=asset("Maya 7.0 | ColladaMaya v0.89", '<unit meter="0.01"/>')
+    )
+    root, findings = mended(tree)
+    assert words(root, "gravity") == ["0", "0", "-981"]
+    assert [h.text for h in root.iter(C + "hollow")] == ["false", "true"]
+    assert codes(findings) == {"convention-chosen", "convention-gravity-unit", "convention-hollow"}
+
+
+def blender_solid(solid: str, low: str, high: str) -> etree._ElementTree:
+    tree = physics(
+        f"<shape>{solid}</shape>",
+        nodes='<node id="n1"><instance_geometry url="#g"/></node>',
+        asset=asset("Blender v:249 - Illusoft Collada Exporter v:0.3"),
+    )
+    mesh = MESH.format("g").replace("0 0 0 1 0 0 0 1 0 0 0 1", f"{low} {high} {low} {high}")
+    library = document(
+        f'<library_geometries><geometry id="g"><mesh>{mesh}</mesh></geometry></library_geometries>'
+    ).getroot()[1]
+    tree.getroot().insert(1, library)
+    return tree
+
+
+@pytest.mark.parametrize(
+    ("high", "height", "turned"),
+    [("1 1 1.5", "3", True), ("1 1 0.75", "1.5", True), ("1 0.75 1", "1.5", False)],
+)
+def test_blenders_cylinders_are_read_as_they_are_shown(
+    high: str, height: str, turned: bool
+) -> None:
+    solid = "<cylinder><height>1.5</height><radius>1 1</radius></cylinder>"
+    low = " ".join(f"-{value}" for value in high.split())
+    root, findings = mended(blender_solid(solid, low, high))
+    assert words(root, "height") == [height]
+    assert (root.find(f".//{C}shape/{C}rotate") is not None) == turned
+    assert ("convention-axis" in codes(findings)) == turned
+
+
+def test_the_thesis_profile_without_a_namespace_is_recognised() -> None:
+    extra = '<extra><technique profile="pe"><uid>5</uid></technique></extra>'
+    root, findings = mended(document(extra))
+    assert root.find(f".//{C}uid").text == "5"
+    assert codes(findings) == {"convention-chosen"}
+
+
+def test_every_convention_can_be_named() -> None:
+    for convention in CONVENTIONS:
+        _, findings = mended(physics(BOX), convention=convention.name)
+        assert codes(findings) == {"convention-chosen"}
+        assert convention.name in findings[0].message
