@@ -41,8 +41,8 @@ class AnyElement:
     """An element that no schema describes.
 
     `qname` and the keys of `attributes` are in Clark notation. `namespaces` holds the prefixes
-    that this element has to declare: those declared on it and, for the outermost element, those
-    in scope that it uses. Text, tail and children are kept as they were written.
+    that this element has to declare beside its own: those declared on it and, for the outermost
+    element, those in scope that it uses. Text, tail and children are kept as they were written.
     """
 
     qname: str
@@ -70,9 +70,11 @@ def read_node(element: _Element, outer: Scope | None = None, *, tail: bool = Tru
     if outer is None:
         namespaces = _used(element, scope)
     else:
-        namespaces = {p: uri for p, uri in scope.items() if outer.get(p) != uri}
-        if None in outer and None not in scope:
-            namespaces[None] = ""
+        namespaces = {
+            prefix: uri
+            for prefix, uri in scope.items()
+            if prefix is not None and prefix != element.prefix and outer.get(prefix) != uri
+        }
     return AnyElement(
         qname=element.tag,
         prefix=element.prefix,
@@ -102,7 +104,9 @@ def _used(element: _Element, scope: Scope) -> Scope:
     return {
         prefix: uri
         for prefix, uri in scope.items()
-        if prefix in used or (prefix is not None and (uri in attributed or f"{prefix}:" in content))
+        if prefix is not None
+        and prefix != element.prefix
+        and (prefix in used or uri in attributed or f"{prefix}:" in content)
     }
 
 
