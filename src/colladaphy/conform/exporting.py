@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from functools import cache
-from typing import Literal, get_args
+from importlib import import_module
+from typing import Any, Literal, get_args
 
 from lxml import etree
 
@@ -46,9 +47,9 @@ def _errors(data: bytes) -> list[Finding]:
     schema = _schema()
     if schema is None or schema.validate(etree.ElementTree(root)):
         return []
+    log: Any = schema.error_log  # its stubs do not know that it can be iterated
     return [
-        INVALID.at(message=error.message, line=error.line, column=error.column)
-        for error in schema.error_log
+        INVALID.at(message=error.message, line=error.line, column=error.column) for error in log
     ]
 
 
@@ -56,8 +57,8 @@ def _errors(data: bytes) -> list[Finding]:
 def _schema() -> etree.XMLSchema | None:
     """The 1.4.1 schema that pycollada ships; None where that is not installed."""
     try:
-        from collada.schema import ColladaValidator
+        pycollada = import_module("collada.schema")
     except ImportError:
         return None
-    schema: etree.XMLSchema = ColladaValidator().COLLADA_SCHEMA_1_4_1_INSTANCE
+    schema: etree.XMLSchema = pycollada.ColladaValidator().COLLADA_SCHEMA_1_4_1_INSTANCE
     return schema

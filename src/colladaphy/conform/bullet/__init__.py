@@ -96,6 +96,13 @@ def _write_bodies(draft: Draft, levels: list[Level], geometries: Geometries) -> 
                 detach(constraint.instance)
     for body, place in zip(bodies, places, strict=True):
         nodes.give(body, place)
+    for top in levels:
+        if "parent" in top.instance.attrib:
+            # Every body's node now holds all of its transform.
+            message = (
+                f"Bullet ignores parent={top.instance.attrib.pop('parent')!r}; it is left out."
+            )
+            draft.note(rules.IGNORED, top.instance, message)
 
 
 def _write_body(draft: Draft, body: Body, geometries: Geometries) -> None:

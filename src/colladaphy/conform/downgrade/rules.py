@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from colladaphy.findings import Rule, Severity
 
-_INFO, _WARNING = Severity.INFO, Severity.WARNING
+_INFO, _WARNING, _ERROR = Severity.INFO, Severity.WARNING, Severity.ERROR
 _IN_EXTRA = "it is kept in an extra with the technique profile colladaphy-1.5"
 
 ELEMENT_KEPT = Rule(
@@ -104,6 +104,12 @@ CONTENT_LEFT = Rule(
     _INFO,
     "content of a technique stays in the namespace of 1.5: it uses element names of 1.4.1",
 )
+INVALID = Rule(
+    "downgrade-invalid",
+    _ERROR,
+    "the result is not valid COLLADA 1.4.1, so it was not written",
+    "validate the document first; if it is valid, report this as a fault of colladaphy",
+)
 
 RULES = (
     ELEMENT_KEPT,
@@ -124,4 +130,5 @@ RULES = (
     BODY_ID,
     SCHEMA_HINT,
     CONTENT_LEFT,
+    INVALID,
 )
