@@ -1,0 +1,137 @@
+"""A run that is stopped and resumed is the run that was not stopped: to the last bit."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from colladaphy.engines import Engine, Simulation, create_engine, digest
+from colladaphy.world import compare
+from tests.engines.scenes import PLANAR, SCENES
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def scene_for(engine: Engine, name: str) -> Simulation:
+    if engine.capabilities.planar and name not in PLANAR:
+        pytest.skip(f"{engine.name} does not run {name}")
+    return Simulation(SCENES[name](), engine)
+
+
+@pytest.mark.parametrize("scene", list(SCENES))
+@pytest.mark.parametrize("at", [0, 1, 37, 150, 400])
+def test_resumed_run_equals_the_run_that_went_on(
+    engine: Engine, scene: str, at: int, tmp_path: Path
+) -> None:
+    going = scene_for(engine, scene)
+    going.run(at)
+    file = going.checkpoint(tmp_path / "checkpoint.dae")
+    resumed = Simulation.resume(file, create_engine(engine.name))
+    assert [f for f in resumed.report if "state" in f.code] == []
+    assert compare(going.world, resumed.world) == []
+    for _ in range(3):
+        going.run(100)
+        resumed.run(100)
+        assert compare(going.world, resumed.world) == []
+
+
+@pytest.mark.parametrize("scene", list(SCENES))
+def test_pieces_of_a_run_are_the_run(engine: Engine, scene: str) -> None:
+    whole, pieces = scene_for(engine, scene), scene_for(create_engine(engine.name), scene)
+    whole.run(300)
+    for count in (1, 2, 50, 47, 200):
+        pieces.run(count)
+    assert compare(whole.world, pieces.world) == []
+
+
+@pytest.mark.parametrize("scene", list(SCENES))
+def test_observing_does_not_disturb(engine: Engine, scene: str) -> None:
+    seen: list[int] = []
+    quiet, watched = scene_for(engine, scene), scene_for(create_engine(engine.name), scene)
+    quiet.run(100)
+    watched.run(100, observers=[lambda world: seen.append(world.step_count)], every=7)
+    watched.contacts()
+    assert seen == [0, *range(7, 101, 7)]
+    assert compare(quiet.world, watched.world) == []
+
+
+RUNNER = """
+import sys
+from colladaphy.engines import Checkpoints, Simulation, digest
+from tests.engines.scenes import SCENES
+engine, scene, folder, what = sys.argv[1:]
+checkpoints = Checkpoints(folder, keep=9)
+if what == "resume":
+    simulation = Simulation.resume(folder, engine)
+else:
+    simulation = Simulation(SCENES[scene](), engine)
+total = 150 if what == "stop" else 300
+steps = total - simulation.world.step_count
+simulation.run(steps, checkpoints=checkpoints, checkpoint_every=50)
+print(digest(simulation.world), simulation.world.step_count)
+"""
+
+
+@pytest.mark.parametrize("scene", list(SCENES))
+def test_across_processes_and_hash_seeds(engine: Engine, scene: str, tmp_path: Path) -> None:
+    scene_for(engine, scene)
+
+    def run(folder: str, what: str, hash_seed: str) -> list[str]:
+        environment = os.environ | {"PYTHONHASHSEED": hash_seed}
+        command = [sys.executable, "-c", RUNNER, engine.name, scene, str(tmp_path / folder), what]
+        done = subprocess.run(
+            command, env=environment, cwd=ROOT, capture_output=True, text=True, check=True
+        )
+        return done.stdout.split()
+
+    straight = run("straight", "run", "1")
+    assert run("stopped", "stop", "2")[1] == "150"
+    assert run("stopped", "resume", "3") == straight
+    assert straight[1] == "300"
+    assert sorted(path.name for path in (tmp_path / "stopped").iterdir()) == sorted(
+        path.name for path in (tmp_path / "straight").iterdir()
+    )
+    for path in (tmp_path / "straight").iterdir():
+        assert path.read_bytes() == (tmp_path / "stopped" / path.name).read_bytes()
+
+
+@settings(max_examples=20)
+@given(st.lists(st.integers(0, 60), min_size=1, max_size=4))
+def test_any_series_of_checkpoints(stops: list[int]) -> None:
+    """In memory: storing and loading at the same steps gives the same run."""
+    one, two = (Simulation(SCENES["pile"](), "mujoco") for _ in range(2))
+    for stop in stops:
+        one.run(stop)
+        two.run(stop)
+        one._rebuild()
+        two = Simulation(two.world, "mujoco")
+    one.run(30)
+    two.run(30)
+    assert compare(one.world, two.world) == []
+
+
+def test_digest_sees_what_compare_sees() -> None:
+    world, other = SCENES["general"](), SCENES["general"]()
+    assert digest(world) == digest(other)
+    other.positions[3, 2] = -0.0 if other.positions[3, 2] == 0 else -other.positions[3, 2]
+    assert compare(world, other) and digest(world) != digest(other)
+    assert digest(world, motion=False) == digest(other, motion=False)
+    other.masses[3] *= 2
+    assert digest(world, motion=False) != digest(other, motion=False)
+
+
+def test_stored_state_is_text_safe(tmp_path: Path) -> None:
+    simulation = Simulation(SCENES["general"](), "mujoco")
+    simulation.run(5)
+    state = simulation.world.engine_state
+    assert state is not None
+    head, _, record = state.data.partition(b"\n")
+    assert head.startswith(b"colladaphy-engine-state 1 ")
+    assert set(json.loads(record)) == {"state", "arrays", "counts"}
