@@ -84,6 +84,15 @@ def test_validate_as_json(cli: Runner, file: Path, tmp_path: Path) -> None:
     assert data["files"][1]["findings"][0]["code"] == "io-missing"
 
 
+def test_the_fail_level(cli: Runner, file: Path) -> None:
+    scene = b'<scene><instance_visual_scene url="#none"/></scene></COLLADA>'
+    file.write_bytes(VALID.replace(b"</COLLADA>", scene))
+    result = cli("validate", file)
+    assert result.code == 0 and result.out.endswith("valid (1 warning)\n")
+    assert cli("validate", file, "--fail-level", "warning").code == 1
+    assert cli("validate", file, "--fail-level", "hint").code == 1
+
+
 @pytest.mark.parametrize("command", ["validate", "info", "convert", "repair"])
 @pytest.mark.parametrize(
     ("content", "code", "words"),

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import colladaphy
-from colladaphy import Limits, validate
-from colladaphy.errors import InputError
+from colladaphy import Limits, Severity, validate
+from colladaphy.errors import ColladaError, InputError
 from colladaphy.source import pack
 from colladaphy.validation.reporters import as_json, as_text, changes
 
@@ -62,7 +62,7 @@ def test_a_valid_document() -> None:
         (b'url="#model"', b'url="#node"', "link-wrong-type", "<node>"),
         (b'parent="#node"', b'parent="#none"', "link-missing", "none"),
         (b'target="#node"', b'target="#model"', "link-wrong-type", "<physics_model>"),
-        (b'target="#node"', b'target=""', "link-missing", "empty"),
+        (b'url="#model"', b'url=""', "link-missing", "empty"),
         (b'body="ball"', b'body="none"', "link-missing", "none"),
         (b'constraint="joint"', b'constraint="ball"', "link-missing", "rigid_constraint"),
         (b'rigid_body="model/ball"', b'rigid_body="model/none"', "link-missing", "none"),
@@ -80,6 +80,25 @@ def test_what_is_wrong_is_found(old: bytes, new: bytes, code: str, words: str) -
     assert {finding.code for finding in report.errors} == {code}
     assert words in report.errors[0].message
     assert not report.valid
+    with pytest.raises(ColladaError):  # what is an error here is refused by strict loading
+        colladaphy.read(VALID.replace(old, new)).load()
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        (b'url="#view"', b'url="#none"'),
+        (b'target="#node"', b'target=""'),
+        (b"<sphere><radius>1</radius></sphere>", b'<instance_geometry url="#none"/>'),
+    ],
+)
+def test_references_that_loading_can_do_without_are_warnings(old: bytes, new: bytes) -> None:
+    report = validate(VALID.replace(old, new))
+    assert report.valid
+    assert [(finding.code, finding.severity) for finding in report] == [
+        ("link-missing", Severity.WARNING)
+    ]
+    colladaphy.read(VALID.replace(old, new)).load()
 
 
 def test_references_in_techniques_are_left_alone() -> None:

@@ -13,7 +13,14 @@ __all__ = ["command"]
 @click.command("validate")
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
 @format_option
-def command(files: tuple[str, ...], form: str) -> int:
+@click.option(
+    "--fail-level",
+    type=click.Choice(["error", "warning", "info", "hint"]),
+    default="error",
+    show_default=True,
+    help="The least severity of a finding for which the exit code is 1.",
+)
+def command(files: tuple[str, ...], form: str, fail_level: str) -> int:
     """Check documents (.dae, .zae) and report everything that is wrong with them.
 
     Exits with 0 when all are valid COLLADA 1.5, with 1 when there are errors, and with 2 when a
@@ -21,7 +28,7 @@ def command(files: tuple[str, ...], form: str) -> int:
     """
     from colladaphy import validate
     from colladaphy.errors import InputError
-    from colladaphy.findings import Report
+    from colladaphy.findings import Report, Severity
     from colladaphy.validation.reporters import as_json
 
     reports = []
@@ -44,4 +51,7 @@ def command(files: tuple[str, ...], form: str) -> int:
         say(as_json(reports))
     if unreadable:
         return EXIT_IO
-    return 0 if all(report.valid for report in reports) else EXIT_FINDINGS
+    levels = [str(severity) for severity in Severity]
+    grave = levels[: levels.index(fail_level) + 1]
+    failed = any(report.counts[level] for report in reports for level in grave)
+    return EXIT_FINDINGS if failed else 0

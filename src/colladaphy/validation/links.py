@@ -1,8 +1,13 @@
-"""Stage link: does every reference of a valid document lead where it should?"""
+"""Stage link: does every reference of a valid document lead where it should?
+
+A reference of the physics that leads nowhere is an error: strict loading refuses it too. One of
+the rest (a material, an image, the geometry of a shape, which costs one body) is a warning.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lxml import etree
@@ -59,6 +64,17 @@ _PARTS = {
     ("instance_rigid_body", "body"): "rigid_body",
     ("instance_rigid_constraint", "constraint"): "rigid_constraint",
 }
+# The elements without whose references a scene cannot be loaded.
+_NEEDED = frozenset(
+    {
+        "instance_physics_scene",
+        "instance_physics_model",
+        "instance_rigid_body",
+        "instance_rigid_constraint",
+        "attachment",
+        "ref_attachment",
+    }
+)
 _WORLD = ("attachment", "ref_attachment")
 
 
@@ -68,16 +84,20 @@ def check_links(document: Document) -> list[Finding]:
     parts = _Parts(document)
     for element, attribute, expected in _references(document.tree):
         reference = element.get(attribute, "")
-        if not reference.strip() and element.tag.rpartition("}")[2] in _WORLD:
+        name = element.tag.rpartition("}")[2]
+        if not reference.strip() and name in _WORLD:
             continue  # the world itself
+        severity = Severity.ERROR if name in _NEEDED else Severity.WARNING
         if not reference.strip():
+            if attribute != "url":  # a body without a node stands at its model's place
+                severity = Severity.WARNING
             message = f"The attribute {attribute!r} is empty, so it refers to nothing."
-            findings.append(rules.MISSING.at(element, message))
+            findings.append(rules.MISSING.at(element, message, severity=severity))
             continue
         try:
             document.resolve(reference, element, expected)
         except ColladaError as error:
-            findings.extend(_placed(finding, element) for finding in error.findings)
+            findings.extend(_placed(finding, element, severity) for finding in error.findings)
     for (name, attribute), kind in _PARTS.items():
         for element in document.tree.iter(_NS + name):
             findings.extend(parts.check(element, attribute, kind))
@@ -106,15 +126,16 @@ def _in_technique(element: etree._Element) -> bool:
     return False
 
 
-def _placed(finding: Finding, element: etree._Element) -> Finding:
+def _placed(finding: Finding, element: etree._Element, severity: Severity) -> Finding:
     """A finding about another file gets the place of the reference that led there."""
     if finding.code == source_rules.REFERENCE_REFUSED.code:  # not wrong, but cannot be checked
         return source_rules.REFERENCE_REFUSED.at(
             element, finding.message, severity=Severity.WARNING, hint=finding.hint
         )
     if finding.code == source_rules.REFERENCE_MISSING.code:
-        return source_rules.REFERENCE_MISSING.at(element, finding.message, hint=finding.hint)
-    return finding
+        rule = source_rules.REFERENCE_MISSING
+        return rule.at(element, finding.message, severity=severity, hint=finding.hint)
+    return replace(finding, severity=severity)
 
 
 class _Parts:
