@@ -106,7 +106,7 @@ def test_a_tapered_capsule_is_the_hull_of_its_caps() -> None:
     root, _ = mended(physics(shape(solid), version="1.4.1"))
     points, _ = mesh_of(root, next(root.iter(C + "instance_geometry")).get("url", ""))
     on_upper = np.abs(np.linalg.norm(points - [0, 2, 0], axis=1) - 1) < 1e-9
-    on_lower = np.abs(np.linalg.norm(points + [0, 2, 0], axis=1) - 2) < 1e-9
+    on_lower = np.abs(np.linalg.norm(points - [0, -2, 0], axis=1) - 2) < 1e-9
     assert np.all(on_upper | on_lower)
     assert points[on_upper & ~on_lower][:, 1].min() >= 2 - 1e-9 + 0.25  # the cone touches above
     assert (points[:, 1].max(), points[:, 1].min()) == pytest.approx((3, -4))

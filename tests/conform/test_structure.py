@@ -82,7 +82,10 @@ def test_an_instance_of_a_body_gets_its_technique_common() -> None:
 
 
 def test_values_outside_of_technique_common_move_into_it() -> None:
-    bare = '<instance_rigid_body body="b1" target="#n1"><velocity>1 2 3</velocity></instance_rigid_body>'
+    bare = (
+        '<instance_rigid_body body="b1" target="#n1"><velocity>1 2 3</velocity>'
+        "</instance_rigid_body>"
+    )
     root, findings = mended(physics(BOX, instances=bare, scene="<gravity>0 0 -1</gravity>"))
     assert words(root, "instance_rigid_body/technique_common/velocity") == ["1", "2", "3"]
     assert words(root, "physics_scene/technique_common/gravity") == ["0", "0", "-1"]

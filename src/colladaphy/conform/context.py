@@ -17,12 +17,16 @@ __all__ = ["CONFORM", "NS", "Context", "local"]
 NS = "{" + NAMESPACE + "}"
 CONFORM = "urn:colladaphy:conform:1"
 OWN_MAP = {"conform": CONFORM}
+_LOCAL: dict[object, str] = {}  # tags repeat; taking them apart each time costs half the run
 
 
 def local(element: etree._Element) -> str:
     """The local name of an element; "" for a comment or a processing instruction."""
     tag = element.tag
-    return tag.rpartition("}")[2] if isinstance(tag, str) else ""
+    name = _LOCAL.get(tag)
+    if name is None:
+        name = _LOCAL[tag] = tag.rpartition("}")[2] if isinstance(tag, str) else ""
+    return name
 
 
 def line_of(element: etree._Element) -> int | None:

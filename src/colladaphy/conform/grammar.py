@@ -14,6 +14,8 @@ from pathlib import Path
 
 from lxml import etree
 
+from colladaphy.schema import schema_folder
+
 __all__ = [
     "NAMESPACE",
     "Attribute",
@@ -293,16 +295,10 @@ class _Reader:
         return Declaration(name, kind, node.get("default"), low, high)
 
 
-def _schema_folder() -> Path:
-    package = Path(__file__).resolve().parent.parent
-    installed = package / "schema"
-    return installed if installed.is_dir() else package.parent.parent / "schema"
-
-
 @cache
 def grammar() -> dict[str, ComplexType]:
     """The named complex types of COLLADA 1.5, by name."""
-    reader = _Reader(_schema_folder() / "collada-1.5" / "collada.xsd")
+    reader = _Reader(schema_folder() / "collada-1.5" / "collada.xsd")
     for kind, name in list(reader.nodes):
         if kind == "complexType":
             reader.type_named(name)
