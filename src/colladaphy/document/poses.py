@@ -26,6 +26,7 @@ __all__ = [
     "quaternion_product",
     "rigid_part",
     "rotate_vector",
+    "unit_quaternion",
 ]
 
 Vector = tuple[float, float, float]
@@ -123,6 +124,16 @@ def quaternion_product(a: Quaternion, b: Quaternion) -> Quaternion:
         aw * by - ax * bz + ay * bw + az * bx,
         aw * bz + ax * by - ay * bx + az * bw,
     )
+
+
+def unit_quaternion(q: Quaternion) -> Quaternion:
+    """The quaternion at length one; one of no length is no rotation."""
+    largest = max(map(abs, q))
+    if not 0.0 < largest < math.inf:
+        return NO_ROTATION
+    w, x, y, z = (value / largest for value in q)
+    length = math.sqrt(w * w + x * x + y * y + z * z)
+    return (w / length, x / length, y / length, z / length)
 
 
 def rotate_vector(q: Quaternion, v: Vector) -> Vector:

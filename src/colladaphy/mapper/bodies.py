@@ -289,7 +289,8 @@ def own_volume(shape: Shape) -> float:
     """The volume of a shape; 0 for a plane."""
     if shape.mesh is not None:
         return shape.mesh.volume
-    return float(solid_volume(shape.kind, np.array([shape.dimensions]))[0])
+    with np.errstate(all="ignore"):
+        return float(solid_volume(shape.kind, np.array([shape.dimensions]))[0])
 
 
 def _off_center(shape: Shape, values: BodyValues) -> bool:

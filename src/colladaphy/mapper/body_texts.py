@@ -74,12 +74,10 @@ class ShapeTexts:
         solid = kinds != Kind.UNION
         box_is_exact = (kinds != Kind.BOX) | halves_are_exact(dimensions)
         full = options.profile == "full" or options.tessellate
-        self.says_shape: list[bool] = (
-            solid & (~box_is_exact | (kinds == Kind.PLANE) | full)
-        ).tolist()
+        self.says_shape: Array = solid & (~box_is_exact | (kinds == Kind.PLANE) | full)
         keep_all = options.profile == "full"
-        self.says_mass: list[bool] = (solid & (~weight_is_exact | keep_all)).tolist()
-        self.says_inertia: list[bool] = (solid & (~self._derived | keep_all)).tolist()
+        self.says_mass: Array = solid & (~weight_is_exact | keep_all)
+        self.says_inertia: Array = solid & (~self._derived | keep_all)
 
     def _weights(self) -> tuple[list[str], Array]:
         """The mass or density element of every shape, and whether the mass is exact in it."""

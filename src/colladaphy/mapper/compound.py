@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colladaphy.document.poses import IDENTITY, Pose, rotate_vector
+from colladaphy.document.poses import IDENTITY, Pose, rotate_vector, unit_quaternion
 from colladaphy.mapper import rules
 from colladaphy.mapper.plans import Dimensions, Part
 from colladaphy.mapper.shapes import Shape, ShapeError, read_shape, unit_plane
@@ -75,18 +75,27 @@ class Mapping:
         """The inertia: the profile's, unless the common one is newer."""
         if kept is None or stated is None:
             return stated if kept is None else kept
-        same = self.precision.same_as_whole(stated, kept)
+        # COLLADA says the symmetric part, and of the largest numbers only that they are large.
+        symmetric = symmetric_part(kept)
+        same = not all(map(math.isfinite, stated)) or self.precision.same_as_whole(
+            stated, symmetric
+        )
         return kept if self.decide("inertia", stated, kept, same) else stated
 
-    def dimensions(self, shape: Shape, kept: ProfilePart) -> tuple[Kind, Dimensions]:
-        """Kind and dimensions: the profile's, unless the common ones are newer."""
+    def dimensions(
+        self, shape: Shape, kept: ProfilePart, where: Pose | None = None
+    ) -> tuple[Kind, Dimensions]:
+        """Kind and dimensions: the profile's, unless the common ones are newer.
+
+        A plane in a union is where its pose `where` in the rigid_body puts it.
+        """
         if kept.dimensions is None or kept.geometry is None:
             return shape.kind, shape.dimensions
         kind = Kind[kept.geometry.upper()]
         x, y, z, length = kept.dimensions
         exact = (x, y, z, length)
         same = kind is shape.kind and (
-            self._same_plane(shape.dimensions, exact)
+            self._same_plane(shape.dimensions, exact if where is None else plane_at(where))
             if kind is Kind.PLANE
             else self.precision.same_each(shape.dimensions, exact)
         )
@@ -98,9 +107,9 @@ class Mapping:
         return shape.kind, shape.dimensions
 
     def _same_plane(self, stated: Dimensions, kept: Dimensions) -> bool:
-        stated, kept = unit_plane(stated), unit_plane(kept)
+        stated = unit_plane(stated)
         return self.precision.same_as_whole(stated[:3], kept[:3]) and self.precision.same(
-            stated[3], kept[3], 1e-12
+            stated[3], kept[3], self.extent
         )
 
     def _is_tessellated(self, kind: Kind, exact: Dimensions, shape: Shape) -> bool:
@@ -243,6 +252,20 @@ def _flat_member(shape: Shape, material: int) -> Part:
     return part
 
 
+def symmetric_part(tensor: Tensor) -> Tensor:
+    """(T + Tᵀ)/2."""
+    return tuple(
+        0.5 * tensor[3 * i + j] + 0.5 * tensor[3 * j + i] for i in range(3) for j in range(3)
+    )
+
+
+def plane_at(pose: Pose) -> Dimensions:
+    """Normal and displacement of a plane that stands at a pose."""
+    a, b, c = rotate_vector(unit_quaternion(pose.rotation), (0.0, 0.0, 1.0))
+    x, y, z = pose.translation
+    return a, b, c, a * x + b * y + c * z
+
+
 def plane_pose(plane: Dimensions) -> Pose:
     """Where a plane stands of which nothing but its equation is known."""
     from colladaphy.world import rotations
@@ -322,7 +345,7 @@ def _refined(
     """A member of a pe union; `outer` is the pose of the union in the rigid_body."""
     if kept.members is not None:
         inner = Part(Kind.UNION, uid=kept.uid, sid=kept.sid, name=kept.name)
-        inner.pose = kept.pose
+        inner.pose = Pose(kept.position, kept.orientation)
         inner.mass, inner.inertia = kept.mass, kept.inertia
         where = outer.then(kept.pose)
         inner.members = [_refined(mapping, child, leaves, where) for child in kept.members]
@@ -338,7 +361,8 @@ def _refined(
             part.pose = own
             part.mass = fresh.mass
     else:
-        part.kind, part.dimensions = mapping.dimensions(shape, kept)
+        where = outer.then(kept.pose)
+        part.kind, part.dimensions = mapping.dimensions(shape, kept, where)
         if part.kind is not Kind.MESH:
             part.mesh_id = -1
         part.mass = mapping.mass(part.mass, kept.mass)
@@ -368,11 +392,9 @@ def _member_pose(mapping: Mapping, kept: ProfilePart, part: Part, outer: Pose) -
         position = stated.position if direct else outer.inverse().then(stated).position
     orientation = kept.orientation
     exact = Pose(position, orientation)
-    whole = outer.then(exact)
+    whole = outer.then(Pose(position, kept.pose.orientation))
     if part.kind is Kind.PLANE:
-        normal = rotate_vector(whole.rotation, (0.0, 0.0, 1.0))
-        same = mapping.precision.same_as_whole(normal, unit_plane(part.dimensions)[:3])
-        same = same or kept.dimensions is not None
+        same = kept.dimensions == part.dimensions
     else:
         same = mapping.precision.same_as_whole(
             whole.translation, stated.translation, mapping.extent

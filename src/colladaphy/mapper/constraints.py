@@ -28,8 +28,9 @@ if TYPE_CHECKING:
     from colladaphy.mapper.plans import Plan
     from colladaphy.world import World
 
-__all__ = ["ConstraintReader", "JointPlan"]
+__all__ = ["Attached", "ConstraintReader", "JointPlan"]
 
+Attached = tuple["Plan | None", Pose]
 Spring = tuple[float, float, float]
 _NOTHING: Vector = (0.0, 0.0, 0.0)
 # What a spring is where its elements say nothing (COLLADA 1.5 §spring).
@@ -74,7 +75,7 @@ class ConstraintReader:
         self,
         element: etree._Element,
         document: Document,
-        attached: Sequence[tuple[Plan | None, Pose]],
+        attached: Sequence[Attached],
     ) -> JointPlan:
         """The joint of a constraint between two bodies, or nodes of the world (None, its pose)."""
         plan = JointPlan(element, document.file)
@@ -99,7 +100,7 @@ class ConstraintReader:
             if name is not None and same_token(name, plan.name):
                 plan.name = name
             if self._prefer != "common":
-                self._refine(plan, kept, element, document)
+                self._refine(plan, kept, element, document, attached)
         return plan
 
     @staticmethod
@@ -108,7 +109,12 @@ class ConstraintReader:
         return place.then(pose) if body is None else body.origin.then(pose)
 
     def _refine(
-        self, plan: JointPlan, kept: etree._Element, element: etree._Element, document: Document
+        self,
+        plan: JointPlan,
+        kept: etree._Element,
+        element: etree._Element,
+        document: Document,
+        attached: Sequence[Attached],
     ) -> None:
         precision = Precision((element,))
         for child in kept:
@@ -116,7 +122,7 @@ class ConstraintReader:
             if name in ("frame1", "frame2"):
                 place = int(name[-1]) - 1
                 plan.frames[place] = self._exact_frame(
-                    plan.frames[place], child, precision, element, document
+                    plan.frames[place], child, precision, element, document, attached[place][0]
                 )
             elif name in ("linear_limits", "angular_limits"):
                 limits = Limits(vector(child[0]), vector(child[1]))
@@ -139,19 +145,22 @@ class ConstraintReader:
         precision: Precision,
         element: etree._Element,
         document: Document,
+        body: Plan | None,
     ) -> Pose:
+        """The frame of the pe profile, unless what it is in the common profile was edited."""
+        exact = stated
         for child in frame:
             if local_name(child.tag) == "position":
-                place = vector(child)
-                same = precision.same_as_whole(stated.translation, place)
-                if self._decide("frame", element, document, stated, place, same=same):
-                    stated = Pose(place, stated.orientation)
+                exact = Pose(vector(child), exact.orientation)
             elif local_name(child.tag) == "orientation":
-                turn = quaternion(child)
-                same = precision.same_turn(stated.rotation, turn)
-                if self._decide("frame", element, document, stated, turn, same=same):
-                    stated = Pose(stated.position, turn)
-        return stated
+                exact = Pose(exact.position, quaternion(child))
+        outer = IDENTITY if body is None else body.origin.inverse()
+        one, other = outer.then(stated), outer.then(exact)
+        same = precision.same_turn(one.rotation, other.rotation)
+        if all(map(math.isfinite, (*one.translation, *other.translation))):
+            extent = max(map(abs, outer.translation))
+            same &= precision.same_as_whole(one.translation, other.translation, extent)
+        return exact if self._decide("frame", element, document, one, other, same=same) else stated
 
     def _decide(
         self,

@@ -55,7 +55,8 @@ def _joint(
     attachments = ""
     planes = [body is not None and body.kind is Kind.PLANE for body in (joint.body1, joint.body2)]
     if any(planes):
-        positions, orientations = _beside_planes(joint, positions, orientations, planes)
+        with np.errstate(all="ignore"):
+            positions, orientations = _beside_planes(joint, positions, orientations, planes)
     for side, name in enumerate(("ref_attachment", "attachment")):
         sid = int(columns["bodies"][row][side])
         where = f' rigid_body="{address(sid)}"' if sid else ""

@@ -11,13 +11,13 @@ from lxml import etree
 from colladaphy.document import rules as link_rules
 from colladaphy.document.collector import paused_collector
 from colladaphy.document.names import c
-from colladaphy.document.poses import IDENTITY, Pose
+from colladaphy.document.poses import IDENTITY
 from colladaphy.document.references import split_reference
 from colladaphy.errors import DocumentError
 from colladaphy.findings import Severity
 from colladaphy.mapper import rules
 from colladaphy.mapper.bodies import BodyInstance, BodyReader
-from colladaphy.mapper.constraints import ConstraintReader
+from colladaphy.mapper.constraints import Attached, ConstraintReader
 from colladaphy.mapper.creation import assign_ids, create_bodies, free_ids
 from colladaphy.mapper.geometries import Geometries
 from colladaphy.mapper.instances import Expansion, ModelInstance
@@ -32,8 +32,6 @@ if TYPE_CHECKING:
 __all__ = ["load"]
 
 _log = logging.getLogger(__name__)
-
-Attached = tuple[Plan | None, Pose]
 
 
 def load(

@@ -46,16 +46,17 @@ _NOTHING = {**_STANDARD, "restitution": 0.5, "static_friction": 0.1, "dynamic_fr
 
 _COMMON = ("dynamic_friction", "restitution", "static_friction")
 _LIMITS = {
-    "density": (5e-324, math.inf),
+    "density": (0.0, math.inf),
     "restitution": (0.0, 1.0),
     "static_friction": (0.0, math.inf),
     "dynamic_friction": (0.0, math.inf),
     "poisson_ratio": (-1.0, 0.5),
-    "young_modulus": (5e-324, math.inf),
-    "stiffness": (5e-324, math.inf),
+    "young_modulus": (0.0, math.inf),
+    "stiffness": (0.0, math.inf),
     "damping_normal": (0.0, math.inf),
     "damping_tangential": (0.0, math.inf),
 }
+_POSITIVE = ("density", "young_modulus", "stiffness")
 _OUR_ID = re.compile(r"Material(\d{1,18})\Z")
 
 
@@ -194,12 +195,10 @@ class MaterialTable:
         for name, value in record.values.items():
             low, high = _LIMITS[name]
             nearest = value
-            if not math.isfinite(value):
+            if not math.isfinite(value) or (name in _POSITIVE and value <= 0.0):
                 nearest = _STANDARD[name]
             elif not low <= value <= high:
                 nearest = low if value < low else high
-            if nearest == 5e-324:
-                nearest = _STANDARD[name]
             if nearest != value:
                 message = (
                     f"The {name} of material {record.name!r} is {value!r}; {nearest!r} is taken."

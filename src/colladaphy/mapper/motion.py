@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from colladaphy.document.names import c, local_name
-from colladaphy.document.poses import IDENTITY, Pose, Vector, rotate_vector
+from colladaphy.document.poses import IDENTITY, Pose, Vector, rotate_vector, unit_quaternion
 from colladaphy.mapper.compound import plane_pose
 from colladaphy.mapper.numbers import DEGREE
 from colladaphy.mapper.profile import pe_child, quaternion, vector
@@ -136,13 +136,7 @@ def _place_plane(
     for child in () if motion is None else motion:
         if local_name(child.tag) == "orientation":
             turn = quaternion(child)
-            normal = rotate_vector(_unit(turn), (0.0, 0.0, 1.0))
+            normal = rotate_vector(unit_quaternion(turn), (0.0, 0.0, 1.0))
             if all(abs(a - b) <= 1e-6 for a, b in zip(normal, part.dimensions[:3], strict=True)):
                 part.pose = Pose(part.pose.position, turn)
     plan.origin = part.pose.inverse().then(instance.pose)
-
-
-def _unit(turn: tuple[float, float, float, float]) -> tuple[float, float, float, float]:
-    length = sum(value * value for value in turn) ** 0.5 or 1.0
-    w, x, y, z = (value / length for value in turn)
-    return w, x, y, z

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from lxml import etree
 
 from colladaphy.document.names import PE, c, local_name, p
-from colladaphy.document.poses import Pose, Quaternion, Vector
+from colladaphy.document.poses import Pose, Quaternion, Vector, unit_quaternion
 
 __all__ = ["ProfileBody", "ProfilePart", "pe_child", "read_profile_body", "techniques"]
 
@@ -46,7 +46,8 @@ class ProfilePart:
     @property
     def pose(self) -> Pose:
         """The pose in the union, as far as it is said."""
-        return Pose(self.position, self.orientation)
+        turn = None if self.orientation is None else unit_quaternion(self.orientation)
+        return Pose(self.position, turn)
 
     def leaves(self) -> Iterable[ProfilePart]:
         """The shapes of a union, the outermost first, in their order."""

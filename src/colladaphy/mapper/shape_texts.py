@@ -56,7 +56,7 @@ def _of_kind(
             radii = column_texts(dimensions[:, 0])
             return [f"<sphere><radius>{radius}</radius></sphere>" for radius in radii]
         case Kind.BOX:
-            halves = row_texts(dimensions[:, :3] / 2.0)
+            halves = row_texts(np.maximum(dimensions[:, :3] / 2.0, 5e-324))
             return [f"<box><half_extents>{half}</half_extents></box>" for half in halves]
         case Kind.CAPSULE:
             heights = column_texts(dimensions[:, 3])

@@ -14,12 +14,15 @@ from collections.abc import Iterable, Sequence
 
 from lxml import etree
 
-from colladaphy.document.poses import Quaternion
+from colladaphy.document.poses import Quaternion, unit_quaternion
 
 __all__ = ["Precision", "same_rotation"]
 
 _FEWEST_DIGITS = 6
 _ALL_DIGITS = 15
+_TINIEST = 2.3e-308
+# Radians beyond this have no degrees; the common profile says the largest number instead.
+_LARGEST = 2.9e306
 
 
 def significant_digits(word: str) -> int:
@@ -53,10 +56,13 @@ class Precision:
         """Whether two numbers are the same; `scale` is that of the vector they are parts of."""
         if one == other or (one != one and other != other):
             return True
+        if min(abs(one), abs(other)) > _LARGEST and (one > 0) == (other > 0):
+            return True
         if math.isinf(one) or math.isinf(other):
             return False
         size = max(abs(one), abs(other), scale)
-        return abs(one - other) <= self.tolerance * size
+        # The tiniest doubles have few bits, so that half of one can be as large as the whole.
+        return abs(one - other) <= self.tolerance * size or size < _TINIEST
 
     def same_each(self, one: Sequence[float], other: Sequence[float]) -> bool:
         """Whether all numbers are the same, each to its own size."""
@@ -82,17 +88,6 @@ class Precision:
 
 def same_rotation(one: Quaternion, other: Quaternion, tolerance: float) -> bool:
     """Whether two quaternions of any length are the same rotation but for `tolerance` (radians)."""
-    first, second = _unit(one), _unit(other)
-    if first is None or second is None:
-        return False
+    first, second = unit_quaternion(one), unit_quaternion(other)
     aligned = min(math.dist(first, second), math.dist(first, tuple(-value for value in second)))
     return aligned <= tolerance
-
-
-def _unit(quaternion: Quaternion) -> Quaternion | None:
-    largest = max(map(abs, quaternion))
-    if not 0.0 < largest < math.inf:
-        return None
-    w, x, y, z = (value / largest for value in quaternion)
-    length = math.sqrt(w * w + x * x + y * y + z * z)
-    return (w / length, x / length, y / length, z / length)

@@ -40,7 +40,7 @@ __all__ = ["store", "store_text"]
 
 _log = logging.getLogger(__name__)
 
-_NMTOKEN = re.compile(r"[\w.\-:·]+\Z")
+_NMTOKEN = re.compile(r"[A-Za-z0-9._:-]+\Z")
 _BOOLEANS = ("false", "true")
 
 
@@ -180,7 +180,7 @@ class _Writer:
             return values, values[:0] or [""] * count
         uids = columns["uids"].tolist()
         profiles = [f'<technique profile="pe"><pe:body uid="{uid}"/></technique>' for uid in uids]
-        special = np.array(texts.says_shape) | texts.says_mass | texts.says_inertia
+        special = texts.says_shape | texts.says_mass | texts.says_inertia
         rows = set(np.flatnonzero(special).tolist())
         if names:
             rows |= {row for row, sid in enumerate(self._sids) if kept_name(names.get(sid))}

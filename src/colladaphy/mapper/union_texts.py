@@ -146,7 +146,8 @@ def mass_frame(inertia: Array) -> str:
     if np.linalg.det(axes) < 0:
         axes[:, 2] = -axes[:, 2]
     turn = rotation_texts(rotations.from_matrix(axes)[None])[0]
-    numbers = floats_text((moments * scale).tolist())
+    with np.errstate(over="ignore"):
+        numbers = floats_text((moments * scale).tolist())
     return (
         f"<mass_frame><translate>0 0 0</translate>{turn}</mass_frame><inertia>{numbers}</inertia>"
     )
