@@ -32,6 +32,7 @@ from colladaphy.conform.bullet.markup import Names, children, first, insert_all
 from colladaphy.conform.bullet.nodes import Nodes
 from colladaphy.conform.bullet.scenes import choose_scene, note_ignored, write_scene
 from colladaphy.conform.bullet.shapes import geometry_of, write_shape
+from colladaphy.conform.bullet.weights import Weights
 from colladaphy.conform.downgrade import to_collada_1_4
 from colladaphy.conform.downgrade.draft import Draft, detach, local, tag15
 from colladaphy.conform.frames import nearest_rotation
@@ -74,6 +75,7 @@ def _models_of(draft: Draft, levels: list[Level]) -> list[etree._Element]:
 
 def _write_bodies(draft: Draft, levels: list[Level], geometries: Geometries) -> None:
     nodes = Nodes(draft)
+    weights = Weights(draft, geometries)
     all_levels = [level for top in levels for level in top.everything()]
     for level in all_levels:
         for body in list(level.bodies):
@@ -84,7 +86,7 @@ def _write_bodies(draft: Draft, levels: list[Level], geometries: Geometries) -> 
                 detach(body.instance)
                 level.bodies.remove(body)
                 continue
-            _write_body(draft, body, geometries)
+            _write_body(draft, body, weights)
     bodies = [body for level in all_levels for body in level.bodies]
     # Where every node stands must be known before the first of them is moved.
     places = [nodes.place(body) for body in bodies]
@@ -105,13 +107,13 @@ def _write_bodies(draft: Draft, levels: list[Level], geometries: Geometries) -> 
             draft.note(rules.IGNORED, top.instance, message)
 
 
-def _write_body(draft: Draft, body: Body, geometries: Geometries) -> None:
+def _write_body(draft: Draft, body: Body, weights: Weights) -> None:
     common = first(body.element, "technique_common")
     shapes = [] if common is None else children(common, "shape")
     if any(local(geometry_of(shape)) == "plane" for shape in shapes):
         hold_still(draft, body, "has a plane as shape")
-    write_mass(draft, body, geometries)
-    settle(draft, body, geometries)
+    write_mass(draft, body, weights)
+    settle(draft, body, weights)
 
 
 def _write_everywhere(draft: Draft, geometries: Geometries, levels: list[Level]) -> None:

@@ -25,7 +25,8 @@ from colladaphy.conform.bullet.markup import (
     put_steps,
     steps_are_plain,
 )
-from colladaphy.conform.bullet.shapes import geometry_of, is_readable, solid_of
+from colladaphy.conform.bullet.shapes import geometry_of, is_readable
+from colladaphy.conform.bullet.weights import Weights
 from colladaphy.conform.downgrade.draft import Draft, detach, local, tag15
 from colladaphy.conform.frames import (
     Matrix,
@@ -115,27 +116,12 @@ def drop_unreadable_shapes(draft: Draft, body: Body, geometries: Geometries) -> 
 # -- mass -------------------------------------------------------------------------------------
 
 
-def shape_masses(body: Body, geometries: Geometries) -> list[float]:
-    """The mass of each shape by itself: given, or by density, which is 1 where nothing is said."""
-    masses = []
-    for shape in children(_common(body.element), "shape"):
-        mass, density = first(shape, "mass"), first(shape, "density")
-        solid = solid_of(shape, geometries)
-        if mass is not None:
-            masses.append(floats_of(mass)[0])
-        elif solid is None:
-            masses.append(math.nan)
-        else:
-            masses.append(solid.volume * (1.0 if density is None else floats_of(density)[0]))
-    return masses
-
-
-def write_mass(draft: Draft, body: Body, geometries: Geometries) -> None:
+def write_mass(draft: Draft, body: Body, weights: Weights) -> None:
     """Write out the mass of a moving body, where only its shapes say it."""
     common = _common(body.element)
     mass = first(common, "mass")
     if mass is None and moves(body):
-        total = math.fsum(shape_masses(body, geometries))
+        total = math.fsum(weights.masses(common))
         if 0.0 < total < math.inf:
             _insert_in_order(common, draft.make("mass", number_text(total)))
             message = f"The body {body.sid!r} got the mass {number_text(total)} of its shapes."
@@ -157,26 +143,11 @@ def write_mass(draft: Draft, body: Body, geometries: Geometries) -> None:
 # -- frames -----------------------------------------------------------------------------------
 
 
-def center_of_mass(body: Body, geometries: Geometries) -> Matrix:
-    """The frame of the centre of mass in the rigid_body: its mass_frame, or that of its shapes."""
-    common = _common(body.element)
-    frame = first(common, "mass_frame")
-    if frame is not None:
-        return transform_of(frame)
-    weighted, total = np.zeros(3), 0.0
-    for shape, mass in zip(children(common, "shape"), shape_masses(body, geometries), strict=True):
-        solid = solid_of(shape, geometries)
-        if solid is not None and 0.0 < mass < math.inf:
-            weighted += mass * (transform_of(shape) @ [*solid.center, 1.0])[:3]
-            total += mass
-    return translation((weighted / total).tolist()) if total > 0.0 else np.eye(4)
-
-
-def settle(draft: Draft, body: Body, geometries: Geometries) -> None:
+def settle(draft: Draft, body: Body, weights: Weights) -> None:
     """Choose where Bullet's body is in the rigid_body's frame, and move everything there."""
     common = _common(body.element)
     shapes = children(common, "shape")
-    center = center_of_mass(body, geometries)
+    center = weights.center_of_mass(common)
     alone = transform_of(shapes[0])
     # Lengths that round to nothing, against the size of what is moved.
     tolerance = 1e-9 * max(1.0, float(np.max(np.abs(center[:3, 3]))))

@@ -50,8 +50,8 @@ class Level:
 
     instance: etree._Element
     model: etree._Element
-    parent: str
-    """The url of the node that the instance stands under; empty for none."""
+    parents: tuple[str, ...]
+    """The urls of the nodes that this instance and those around it stand under."""
     bodies: list[Body] = field(default_factory=list)
     constraints: list[Constraint] = field(default_factory=list)
     inner: list[Level] = field(default_factory=list)
@@ -122,7 +122,7 @@ def flatten(draft: Draft, scene: etree._Element) -> list[Level]:
             models[name].addnext(target)
             instance.set("url", "#" + target.get("id", ""))
         used.add(name)
-        level = _read(draft, instance, originals, (name,), "")
+        level = _read(draft, instance, originals, (name,), ())
         _write(draft, level, target, sids)
         levels.append(level)
     return levels
@@ -133,14 +133,15 @@ def _read(
     instance: etree._Element,
     models: _Models,
     path: tuple[str, ...],
-    parent: str,
+    parents: tuple[str, ...],
 ) -> Level:
     model = models.by_id[path[-1]]
-    level = Level(instance, model, instance.get("parent", "").strip() or parent)
+    own = instance.get("parent", "").strip()
+    level = Level(instance, model, (*parents, own) if own else parents)
     for inner in children(model, "instance_physics_model"):
         name = inner.get("url", "").strip().removeprefix("#")
         if name in models.by_id and name not in path:
-            level.inner.append(_read(draft, inner, models, (*path, name), level.parent))
+            level.inner.append(_read(draft, inner, models, (*path, name), level.parents))
         else:
             message = f"The model {inner.get('url')!r} is not in this file, or holds itself."
             draft.note(rules.EXTERNAL, instance, message)

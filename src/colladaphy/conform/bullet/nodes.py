@@ -91,14 +91,17 @@ class Nodes:
         return False
 
     def place(self, body: Body) -> Matrix:
-        """The transform of a body's target, below the parent of its model if it is not there."""
+        """The transform of a body's target, below the parents of its model if it is not there."""
         target = self.find(body.instance.get("target", ""))
-        if target is None:
-            return np.eye(4)
-        parent = self.find(body.level.parent)
-        if parent is None or self._is_within(target, parent):
-            return self.world(target)
-        return self.world(parent) @ self.world(target)
+        result = np.eye(4) if target is None else self.world(target)
+        for url in reversed(body.level.parents):
+            parent = self.find(url)
+            if parent is None:
+                continue
+            if target is not None and self._is_within(target, parent):
+                break
+            result = self.world(parent) @ result
+        return result
 
     # -- writing ------------------------------------------------------------------------------
 
