@@ -13,6 +13,7 @@ from lxml import etree
 
 from colladaphy import schema_rules as rules
 from colladaphy.findings import Finding
+from colladaphy.schema_blocks import Complaint, validate_in_blocks, wide_parents
 from colladaphy.schema_messages import Violation, translate
 from colladaphy.source.xml import COLLADA_1_4, COLLADA_1_5
 
@@ -25,6 +26,7 @@ _STEP = re.compile(r"([^/\[\]]+)(?:\[(\d+)\])?")
 _LOCK = threading.Lock()
 _XS = "{http://www.w3.org/2001/XMLSchema}"
 _PE = "urn:colladaphy:pe:1"
+_all_ids = etree.XPath("//*/@id", smart_strings=False)
 _NCNAME = re.compile(r"[^\W\d][\w.\-·]*\Z")
 
 
@@ -51,15 +53,10 @@ def gate(tree: _ElementTree) -> list[Finding]:
         if not namespace:
             message = "The root element has no namespace."
         return [rules.WRONG_NAMESPACE.at(root, message)]
-    schema = _schema()
-    with _LOCK:  # the schema object keeps the log of its last run
-        schema.validate(tree)
-        log: Any = schema.error_log
-        entries = [(entry.path, entry.type, entry.message) for entry in log]
+    parents = wide_parents(tree)
+    complaints = validate_in_blocks(tree, parents, _validate) if parents else _validate(tree)
+    violations = [(element, translate(code, message)) for element, code, message in complaints]
     places = _Places(root)
-    violations = [
-        (places.element(path or "/*"), translate(code, message)) for path, code, message in entries
-    ]
     found = [*_clean(violations), *_duplicate_ids(tree), *_unknown_profile(tree)]
     found.sort(key=lambda pair: places.order(pair[0]))
     findings = [
@@ -82,6 +79,17 @@ def _profile_elements() -> frozenset[str]:
     return frozenset(
         f"{{{_PE}}}{child.get('name')}" for child in root.iterchildren(f"{_XS}element")
     )
+
+
+def _validate(tree: _ElementTree) -> list[Complaint]:
+    """What libxml2 says, by element."""
+    schema = _schema()
+    with _LOCK:  # the schema object keeps the log of its last run
+        schema.validate(tree)
+        log: Any = schema.error_log
+        entries = [(entry.path, entry.type, entry.message) for entry in log]
+    places = _Places(tree.getroot())
+    return [(places.element(path or "/*"), code, message) for path, code, message in entries]
 
 
 _Found = tuple["_Element", Violation]
@@ -108,7 +116,7 @@ def _duplicate_ids(tree: _ElementTree) -> list[_Found]:
     libxml2 remembers ids in the tree from run to run, so after edits its own answer is no use.
     Content of techniques is left out: what it means by `id` is its own affair.
     """
-    ids = tree.xpath("//@id")
+    ids = _all_ids(tree)
     if not isinstance(ids, list) or len(set(ids)) == len(ids):
         return []
     owners: defaultdict[str, list[_Element]] = defaultdict(list)

@@ -201,3 +201,42 @@ def test_ids_in_techniques_are_not_ours() -> None:
 def test_long_values_are_cut_short() -> None:
     (finding,) = findings(model(body(f"<mass>{'x' * 100_000}</mass>" + SHAPE)))
     assert len(finding.message) < 300
+
+
+def wide(faulty: str, correct: str, count: int, every: int) -> bytes:
+    """A document with very many bodies, of which one in `every` is faulty."""
+    good, bad = body(correct, 'sid="a"'), body(faulty, 'sid="a"')
+    bodies = "\n".join(bad if index % every == every - 1 else good for index in range(count))
+    return document(model(bodies + "\n<rigid_body/><extra/>"))
+
+
+@pytest.mark.parametrize("every", [1, 7, 2500])
+def test_very_many_siblings_are_validated_in_blocks_with_the_same_result(
+    monkeypatch: pytest.MonkeyPatch, every: int
+) -> None:
+    tree = parse(wide("<mass>x</mass>" + SHAPE, "<mass>1</mass>" + SHAPE, 5000, every)).tree
+    whole = gate(tree)
+    monkeypatch.setattr("colladaphy.schema.wide_parents", lambda _: [])
+    assert gate(tree) == whole
+    assert len(whole) == 5000 // every + 3  # and the last body, which lacks all
+
+
+def test_a_flood_of_errors_takes_time_in_proportion(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No run of the validator sees more siblings than a block has."""
+    import colladaphy.schema as schema
+
+    seen: list[int] = []
+    validate = schema._validate
+
+    def watched(tree: object) -> object:
+        seen.append(len(tree.getroot()[1][0]))  # type: ignore[index,attr-defined]
+        return validate(tree)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(schema, "_validate", watched)
+    tree = parse(wide("<mass>x</mass>" + SHAPE, SHAPE, 20_000, 1)).tree
+    assert len(gate(tree)) == 20_003
+    assert max(seen) < 5000
+
+
+def test_a_large_valid_document_is_validated_at_once() -> None:
+    assert gate(parse(document(model("\n".join([body(SHAPE)] * 5000)))).tree) == []
