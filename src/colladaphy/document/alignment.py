@@ -9,7 +9,7 @@ from hashlib import blake2b
 
 from lxml import etree
 
-__all__ = ["align", "digest", "longest_increasing"]
+__all__ = ["align", "longest_increasing"]
 
 # What tells an element from its siblings, the surest first.
 _IDENTIFYING = (
@@ -18,18 +18,21 @@ _IDENTIFYING = (
 )  # fmt: skip
 
 
-def digest(node: etree._Element) -> bytes:
+def _digest(node: etree._Element) -> bytes:
     """A short stand-in for everything inside a node, its tail excepted."""
     return blake2b(etree.tostring(node, with_tail=False), digest_size=16).digest()
 
 
-def align(before: Sequence[etree._Element], after: Sequence[etree._Element]) -> list[int | None]:
-    """For each node of `after` the index in `before` of what it was; None for a new one.
+def align(
+    before: Sequence[etree._Element], after: Sequence[etree._Element]
+) -> list[tuple[int | None, bool]]:
+    """For each node of `after` the index in `before` of what it was, and whether it changed.
 
+    The index is None for a new one.
     Equal nodes belong together, then those of the same name and identity, then those of the same
     name in their order. No node of `before` is named twice. Linear in the number of nodes.
     """
-    old, new = [digest(node) for node in before], [digest(node) for node in after]
+    old, new = [_digest(node) for node in before], [_digest(node) for node in after]
     result: list[int | None] = [None] * len(after)
     start = 0
     while start < min(len(old), len(new)) and old[start] == new[start]:
@@ -56,7 +59,7 @@ def align(before: Sequence[etree._Element], after: Sequence[etree._Element]) -> 
                 result[i] = same.popleft()
         left = sorted(i for queue in waiting.values() for i in queue)
         open_ = [i for i in open_ if result[i] is None]
-    return result
+    return [(i, i is None or old[i] != mine) for i, mine in zip(result, new, strict=True)]
 
 
 def _identity(node: etree._Element) -> Hashable:

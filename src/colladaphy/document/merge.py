@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 from lxml import etree
 
-from colladaphy.document.alignment import align, digest, longest_increasing
+from colladaphy.document.alignment import align, longest_increasing
 from colladaphy_schema.codec import decode_document, encode, paused_collector
 from colladaphy_schema.registry import ELEMENTS, PREFIXES
 
@@ -77,24 +77,26 @@ def _patch(
     nodes = _counterparts(target, old)
     before, after = list(old), list(new)
     origins = align(before, after)
-    kept = {index for index in origins if index is not None}
+    kept = {index for index, _ in origins if index is not None}
     for index, node in enumerate(nodes):
         if index not in kept:
             _remove(target, node, mixed)
-    stable = longest_increasing([index for index in origins if index is not None])
+    stable = longest_increasing([index for index, _ in origins if index is not None])
     previous: etree._Element | None = None
     separator = _separator(target, mixed)
-    for origin, child in zip(origins, after, strict=True):
+    unit = _unit(target, separator)
+    for (origin, changed), child in zip(origins, after, strict=True):
+        inner = mixed or (_is_wildcard(target) and child.tag not in ELEMENTS)
         if origin is None:
             node = _insert(target, previous, deepcopy(child), separator)
-            _indent(node, separator, _unit(target, separator))
+            if not inner:
+                _indent(node, separator, unit)
         else:
             node = nodes[origin]
             if origin not in stable:
                 _remove(target, node, mixed)
                 _insert(target, previous, node, separator)
-            if digest(before[origin]) != digest(child):
-                inner = mixed or (_is_wildcard(target) and child.tag not in ELEMENTS)
+            if changed:
                 _patch(node, before[origin], child, generic=inner)
         if mixed or child.tail != (None if origin is None else before[origin].tail):
             node.tail = child.tail
@@ -113,21 +115,27 @@ def _counterparts(target: etree._Element, old: etree._Element) -> list[etree._El
 
 
 def _patch_attributes(target: etree._Element, old: etree._Element, new: etree._Element) -> None:
-    for name in old.keys():
-        if name not in new.attrib:
-            target.attrib.pop(name, None)
-    for name, value in new.items():
-        if old.get(name) == value:
+    before, after = _attributes(old), _attributes(new)
+    for name in before.keys() - after.keys() & _attributes(target).keys():
+        del target.attrib[name]
+    for name, value in after.items():
+        if before.get(name) == value:
             continue
         if name == f"{{{_XSI}}}type":
-            prefix, _, local = value.rpartition(":")
-            uri = _SCOPE[prefix or None]
-            value = next(
-                f"{bound}:{local}" if bound else local
-                for bound, space in target.nsmap.items()
-                if space == uri
-            )
+            value = _requalified(value, target)
         target.set(name, value)
+
+
+def _attributes(element: etree._Element) -> dict[str, str]:
+    return {str(name): str(value) for name, value in element.items()}
+
+
+def _requalified(name: str, target: etree._Element) -> str:
+    """The name of a type with the prefix that its namespace has in the original."""
+    prefix, _, local = name.rpartition(":")
+    uri = _SCOPE[prefix or None]
+    bound = next(bound for bound, space in target.nsmap.items() if space == uri)
+    return f"{bound}:{local}" if bound else local
 
 
 def _is_wildcard(element: etree._Element) -> bool:
@@ -157,13 +165,17 @@ def _unit(parent: etree._Element, separator: str | None) -> str:
 def _remove(parent: etree._Element, node: etree._Element, mixed: bool) -> None:
     """Take a node out; the last one's tail, which indents the end tag, passes to the one before."""
     before = node.getprevious()
-    if not mixed and node.getnext() is None:
-        if before is not None:
-            before.tail = node.tail
-        elif node.tail is None or node.tail.isspace():
+    if not mixed and node.getnext() is None and _is_blank(node.tail):
+        if before is None:
             parent.text = node.tail
+        elif _is_blank(before.tail):
+            before.tail = node.tail
     node.tail = None
     parent.remove(node)
+
+
+def _is_blank(text: str | None) -> bool:
+    return not text or text.isspace()
 
 
 def _insert(
@@ -180,8 +192,8 @@ def _insert(
     tail, previous.tail = previous.tail, None
     node.tail = None
     previous.addnext(node)
-    previous.tail = separator if tail is None or tail.isspace() else tail
-    node.tail = tail if tail is None or tail.isspace() else None
+    previous.tail = separator if _is_blank(tail) else tail
+    node.tail = tail if _is_blank(tail) else None
     return node
 
 
@@ -190,10 +202,10 @@ def _indent(node: etree._Element, separator: str | None, unit: str) -> None:
     if separator is None or not unit or not len(node) or node.tag == _MATH:
         return
     inner = separator + unit
-    node.text = node.text if node.text and not node.text.isspace() else inner
+    node.text = inner if _is_blank(node.text) else node.text
     wild = _is_wildcard(node)
     for child in node:
-        if not child.tail or child.tail.isspace():
+        if _is_blank(child.tail):
             child.tail = inner if child.getnext() is not None else separator
         if isinstance(child.tag, str) and (not wild or child.tag in ELEMENTS):
             _indent(child, inner, unit)

@@ -40,13 +40,14 @@ class AnyElement:
 
     `qname` and the keys of `attributes` are in Clark notation. `namespaces` holds the prefixes
     that this element has to declare beside its own: those declared on it and, for the outermost
-    element, those in scope that it uses. Text, tail and children are kept as they were written.
+    element, those in scope that it uses. Text, tail and children are kept as they were written. Prefixes take no
+    part in comparison: they are spelling.
     """
 
     qname: str
-    prefix: str | None = None
+    prefix: str | None = field(default=None, compare=False)
     attributes: dict[str, str] = field(default_factory=dict)
-    namespaces: Scope = field(default_factory=dict)
+    namespaces: Scope = field(default_factory=dict, compare=False)
     text: str | None = None
     children: list[AnyElement | Comment | ProcessingInstruction] = field(default_factory=list)
     tail: str | None = None
