@@ -112,9 +112,7 @@ def capsule_rings(rings: int = 12, links: int = 16) -> World:
         for link in range(links):
             angle = 2.0 * math.pi * link / links
             place = (2.0 * math.cos(angle), 2.0 * math.sin(angle), 0.5 * ring)
-            capsule = world.create_capsule(
-                ring, place, 0.1, 4.0 * math.sin(math.pi / links), copper
-            )
+            capsule = world.create_capsule(ring, place, 0.1, length, copper)
             capsule.rotate(0.0, 0.0, angle + math.pi / 2.0)
             members.append(capsule)
         union = world.create_union(1000 + ring, members)

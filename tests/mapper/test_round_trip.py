@@ -6,11 +6,11 @@ import io
 
 import pytest
 from hypothesis import given, settings
+from tests.strategies.worlds import worlds
 
 import colladaphy
 from colladaphy.mapper import WriteOptions
 from colladaphy.world import World, compare
-from tests.strategies.worlds import worlds
 
 
 def there_and_back(world: World, **options: object) -> tuple[World, colladaphy.Document]:
