@@ -6,15 +6,16 @@ import json
 import os
 import subprocess
 import sys
+import zlib
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.engines.scenes import PLANAR, SCENES
 
 from colladaphy.engines import Engine, Simulation, create_engine, digest
 from colladaphy.world import compare
-from tests.engines.scenes import PLANAR, SCENES
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -64,6 +65,7 @@ def test_observing_does_not_disturb(engine: Engine, scene: str) -> None:
 
 RUNNER = """
 import sys
+import zlib
 from colladaphy.engines import Checkpoints, Simulation, digest
 from tests.engines.scenes import SCENES
 engine, scene, folder, what = sys.argv[1:]
@@ -127,11 +129,36 @@ def test_digest_sees_what_compare_sees() -> None:
     assert digest(world, motion=False) != digest(other, motion=False)
 
 
-def test_stored_state_is_text_safe(tmp_path: Path) -> None:
-    simulation = Simulation(SCENES["general"](), "mujoco")
+def test_state_that_cannot_be_understood_is_refused() -> None:
+    from colladaphy.engines.mujoco_engine import memory
+
+    engine = create_engine("mujoco")
+    simulation = Simulation(SCENES["general"](), engine)
     simulation.run(5)
-    state = simulation.world.engine_state
-    assert state is not None
-    head, _, record = state.data.partition(b"\n")
-    assert head.startswith(b"colladaphy-engine-state 1 ")
-    assert set(json.loads(record)) == {"state", "arrays", "counts"}
+    compiled, data = engine._model.compiled, engine._data
+    good = memory.remember(compiled, data)
+    assert memory.recall(compiled, data, good)
+    for bad in (b"", b"x", good[:-9], zlib.compress(b"{}\n"), zlib.compress(bytes(10**7))):
+        assert not memory.recall(compiled, data, bad)
+
+
+@pytest.mark.parametrize("scene", ["pile", "general"])
+def test_indices_that_lead_out_of_bounds_are_refused(scene: str) -> None:
+    """MuJoCo follows them unchecked, and a file can hold anything."""
+    from colladaphy.engines.mujoco_engine import memory
+
+    engine = create_engine("mujoco")
+    simulation = Simulation(SCENES[scene](), engine)
+    simulation.run(400)
+    assert simulation.world.sleeping.any()
+    compiled, data = engine._model.compiled, engine._data
+    head, _, floats = zlib.decompress(memory.remember(compiled, data)).partition(b"\n")
+    record = json.loads(head)
+    for name, value in record.items():
+        for bad in (-1000, 10**6, 2**40):
+            changed = [bad, *value[1:]] if isinstance(value, list) else bad
+            line = json.dumps({**record, name: changed}).encode()
+            assert not memory.recall(compiled, data, zlib.compress(line + b"\n" + floats))
+    ring = [0 if tree >= 0 else tree for tree in record["tree_asleep"]]
+    line = json.dumps({**record, "tree_asleep": ring}).encode()
+    assert not memory.recall(compiled, data, zlib.compress(line + b"\n" + floats))

@@ -8,16 +8,18 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+import colladaphy
 from colladaphy.cli.console import note, say
 from colladaphy.cli.files import source_of, target_of
 
 if TYPE_CHECKING:
-    from colladaphy.engines import Checkpoints, Simulation, Summary, Trajectory
+    from colladaphy.engines import Checkpoints, Summary, Trajectory
     from colladaphy.findings import Finding
     from colladaphy.world import World
 
@@ -102,19 +104,23 @@ def command(
     that is resumed equals the run that was not interrupted, to the last bit, if both write their
     checkpoints at the same steps.
     """
-    from colladaphy.engines import Checkpoints, Trajectory
+    from colladaphy.engines import Simulation
 
-    if source == "-" and folder is None and (interval or resume):
-        raise click.UsageError("Give --checkpoint-dir where IN is standard input.")
-    place = folder or ("stdin.checkpoints" if source == "-" else _beside(source))
-    checkpoints = Checkpoints(place, keep=keep)
     world = _read(source)
     goal = world.step_count + steps
-    simulation = _start(world, checkpoints, engine, dt, seed, resume, begin=bool(interval))
-    recorder = Trajectory() if trajectory else None
+    checkpoints = _series(source, folder, keep, resume=resume, begin=bool(interval))
+    if resume:
+        simulation = Simulation.resume(checkpoints.folder, engine, dt, seed)
+        _tell(simulation.report.findings)
+        _compare(world, simulation.world)
+        note(f"Resumed at step {simulation.world.step_count}.")
+    else:
+        simulation = Simulation(world, engine, dt, seed)
+        _tell(simulation.report.findings)
+    before = simulation.world.step_count
+    recorder = _recorder(trajectory, before) if trajectory else None
     with _interruption() as interrupted:
         began = time.monotonic()
-        before = simulation.world.step_count
         progress = _Progress(goal, before)
         summary = simulation.run(
             max(0, goal - before),
@@ -122,18 +128,89 @@ def command(
             every=trajectory_every,
             checkpoints=checkpoints,
             checkpoint_every=interval or 0,
+            before_checkpoint=recorder.save_again if recorder else None,
             stop=lambda: bool(interrupted),
             progress=progress,
         )
         spent = time.monotonic() - began
         progress.clear()
         stopped = summary.step_count < goal
+        if recorder is not None and trajectory is not None:
+            recorder(simulation.world)
+            recorder.save(trajectory)
         if stopped:
-            _interrupt(simulation, checkpoints)
-    _save(simulation.world, recorder, None if stopped else target, trajectory)
+            path = simulation.checkpoint(checkpoints)
+            note(f"Interrupted at step {summary.step_count}; checkpoint: {path}")
+            note(f"Go on with: {_again(checkpoints.folder)}")
+    if target is not None and not stopped:
+        colladaphy.write(simulation.world, target_of(target))
     if target != "-":
         _report(summary, summary.step_count - before, spent)
     return EXIT_INTERRUPTED if stopped else 0
+
+
+def _series(
+    source: str, folder: str | None, keep: int, *, resume: bool, begin: bool
+) -> Checkpoints:
+    """The checkpoints of this run, which are never mixed with those of another."""
+    from colladaphy.engines import Checkpoints
+
+    if folder is None:
+        if source == "-" and (resume or begin):
+            raise click.UsageError("Give --checkpoint-dir where IN is standard input.")
+        folder = "stdin.checkpoints" if source == "-" else _beside(source)
+    checkpoints = Checkpoints(folder, keep=keep)
+    there = checkpoints.paths()
+    if resume and not there:
+        raise click.UsageError(f"There is no checkpoint in {folder}; start without --resume.")
+    if there and begin and not resume:
+        raise click.UsageError(
+            f"{folder} holds the checkpoints of a run already: go on with it (--resume), or name "
+            "another folder (--checkpoint-dir)."
+        )
+    if there and not resume:  # needed only if this run is interrupted
+        free = (Checkpoints(f"{folder}-{number}", keep=keep) for number in count(2))
+        checkpoints = next(series for series in free if not series.paths())
+    if begin:
+        checkpoints.begin()
+    return checkpoints
+
+
+def _compare(scene: World, resumed: World) -> None:
+    """Say so where the document has become another one than that of the checkpoint."""
+    from colladaphy.engines import digest
+
+    scene.time_step = resumed.time_step
+    if digest(scene, motion=False) != digest(resumed, motion=False):
+        note("warning: IN is not the scene of this checkpoint; the checkpoint goes on.")
+
+
+def _recorder(file: str, step_count: int) -> Trajectory:
+    """What records to `file`, after what is there of the run up to the step it begins with."""
+    from colladaphy.engines import Trajectory
+
+    if step_count and Path(file).exists():
+        return Trajectory.load(file, until=step_count)
+    return Trajectory(file)
+
+
+def _again(folder: Path) -> str:
+    """The command that goes on with this one."""
+    context = click.get_current_context()
+    given = click.core.ParameterSource.COMMANDLINE
+    words: list[str] = []
+    options: list[str] = []
+    for parameter in context.command.params:
+        name = parameter.name or ""
+        if context.get_parameter_source(name) is not given or name in ("resume", "folder"):
+            continue
+        value = str(context.params[name])
+        if isinstance(parameter, click.Argument):
+            words.append(value)
+        else:
+            options += [parameter.opts[0], value]
+    options += ["--checkpoint-dir", str(folder), "--resume"]
+    return shlex.join([*context.command_path.split(), *words, *options])
 
 
 def _beside(source: str) -> str:
@@ -141,38 +218,12 @@ def _beside(source: str) -> str:
 
 
 def _read(source: str) -> World:
-    import colladaphy
-
     document = colladaphy.read(source_of(source))
     _tell(document.report.findings)
     known = len(document.report)
     world: World = document.load()
     _tell(document.report.findings[known:])
     return world
-
-
-def _start(
-    world: World,
-    checkpoints: Checkpoints,
-    engine: str,
-    dt: float | None,
-    seed: int | None,
-    resume: bool,
-    *,
-    begin: bool,
-) -> Simulation:
-    from colladaphy.engines import Simulation
-
-    if resume:
-        simulation = Simulation.resume(checkpoints.folder, engine, dt, seed)
-        _tell(simulation.report.findings)
-        note(f"Resumed at step {simulation.world.step_count}.")
-        return simulation
-    simulation = Simulation(world, engine, dt, seed)
-    if begin:
-        checkpoints.begin()
-    _tell(simulation.report.findings)
-    return simulation
 
 
 def _tell(findings: list[Finding]) -> None:
@@ -182,26 +233,6 @@ def _tell(findings: list[Finding]) -> None:
     for finding in findings:
         if finding.severity in (Severity.ERROR, Severity.WARNING):
             note(str(finding))
-
-
-def _interrupt(simulation: Simulation, checkpoints: Checkpoints) -> None:
-    path = simulation.checkpoint(checkpoints)
-    note(f"Interrupted at step {simulation.world.step_count}; checkpoint: {path}")
-    arguments = [argument for argument in sys.argv[1:] if argument != "--resume"]
-    again = shlex.join(["colladaphy", *arguments, "--resume"])
-    note(f"Go on with: {again}")
-
-
-def _save(
-    world: World, recorder: Trajectory | None, target: str | None, trajectory: str | None
-) -> None:
-    import colladaphy
-
-    if recorder is not None and trajectory is not None:
-        recorder(world)
-        recorder.save(trajectory)
-    if target is not None:
-        colladaphy.write(world, target_of(target))
 
 
 def _report(summary: Summary, steps: int, spent: float) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Self
@@ -12,7 +13,7 @@ from colladaphy.engines.checkpoints import Checkpoints, read_checkpoint
 from colladaphy.engines.diagnostics import Summary, summarise
 from colladaphy.engines.digest import digest
 from colladaphy.engines.rules import SEED_UNUSED, STEPS, TIME_STEP_DEFAULT, refuse
-from colladaphy.engines.selection import ENGINES, choose, create_engine
+from colladaphy.engines.selection import choose, create_engine
 from colladaphy.engines.state import recorded_digest, unpack
 from colladaphy.errors import EngineError
 from colladaphy.findings import Report, Severity
@@ -87,8 +88,8 @@ class Simulation:
         else:
             world, passed = read_checkpoint(source), ()
         if engine == "auto" and world.engine_state is not None:
-            writer = world.engine_state.engine
-            engine = writer if writer in ENGINES else "auto"
+            with suppress(EngineError):  # it is not installed: unpacking will say so
+                engine = create_engine(world.engine_state.engine)
         run = cls(world, engine, dt, seed)
         run.report.findings[:0] = passed
         return run
@@ -101,16 +102,18 @@ class Simulation:
         every: int = 1,
         checkpoints: Checkpoints | None = None,
         checkpoint_every: int = 0,
+        before_checkpoint: Callable[[], None] | None = None,
         stop: Callable[[], bool] | None = None,
         progress: Callable[[int], None] | None = None,
     ) -> Summary:
         """Advance `steps` steps, or until `stop` says so, and bring the World up to date.
 
         Observers are called at the start and then whenever the World's `step_count` is a multiple
-        of `every`; checkpoints are written whenever it is a multiple of `checkpoint_every`, which
-        makes a resumed run write the same ones. `progress` gets the number of steps done, several
-        times a second. Raises EngineError when the run diverges: the World is then as it was at
-        the last observation or checkpoint, or at the start.
+        of `every`; checkpoints are written, after a call of `before_checkpoint`, whenever it is a
+        multiple of `checkpoint_every`, which makes a resumed run write the same ones. `progress`
+        gets the number of steps done, several times a second. Raises EngineError when the run
+        diverges: the World is then as it was at the last observation or checkpoint, or at the
+        start.
         """
         if steps < 0 or every < 1 or checkpoint_every < 0:
             message = f"Asked for {steps} steps, an interval of {every} and {checkpoint_every}."
@@ -133,6 +136,8 @@ class Simulation:
                 stale = False
                 _notify(observers, self.world)
             if checkpoints and checkpoint_every and count % checkpoint_every == 0:
+                if before_checkpoint:
+                    before_checkpoint()
                 self._save(checkpoints)
                 stale = False
             if progress:

@@ -118,7 +118,8 @@ def _joints(world: World) -> Iterator[Finding]:
             else:
                 yield JOINT_LOOP.at(message=f"{joint!r} closes a loop.")
         yield from _approximations(joint)
-        yield from _displacement(joint)
+        if joint.sid not in loops:
+            yield from _displacement(joint)
 
 
 def _approximations(joint: Joint) -> Iterator[Finding]:
