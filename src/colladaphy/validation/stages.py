@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from colladaphy.document import Document
 from colladaphy.errors import InputError, XmlError
 from colladaphy.findings import Report
 from colladaphy.schema import gate
 from colladaphy.source import Limits, Parsed, Source, load, parse_loaded
 from colladaphy.source import rules as source_rules
+from colladaphy.source.places import locate
 from colladaphy.validation.links import check_links
 
 __all__ = ["validate"]
@@ -48,7 +51,22 @@ def validate(source: Source, *, limits: Limits | None = None) -> Report:
     if report.valid:
         document = _document(parsed, report, {})
         report.extend(check_links(document))
+    _locate(report, loaded.data)
     return report
+
+
+def _locate(report: Report, data: bytes) -> None:
+    """Give findings their columns, and lines that are exact in long documents too."""
+    wanted = {
+        finding.path
+        for finding in report
+        if finding.path and finding.column is None and finding.file == report.file
+    }
+    places = locate(data, wanted) if wanted else {}
+    for index, finding in enumerate(report.findings):
+        if finding.path in places and finding.path in wanted:
+            line, column = places[finding.path]
+            report.findings[index] = replace(finding, line=line, column=column)
 
 
 def _document(parsed: Parsed, report: Report, family: dict[str, Document]) -> Document:
