@@ -83,6 +83,18 @@ MESH_HULL = Rule(
     "The mesh is not convex: the engine lets its convex hull collide.",
     "Make a union of convex parts to keep the hollows.",
 )
+NOT_PLANAR = Rule(
+    "engine-not-planar",
+    Severity.ERROR,
+    "The scene does not stay in one plane.",
+    "Run it with MuJoCo: pip install 'colladaphy[mujoco]'.",
+)
+PLANE_FINITE = Rule(
+    "engine-plane-finite",
+    Severity.WARNING,
+    "The engine takes a thick, finite slab for a plane.",
+    "Bodies that leave the scene far behind fall off its end.",
+)
 MOVING_PLANE = Rule(
     "engine-moving-plane",
     Severity.ERROR,
@@ -220,6 +232,8 @@ RULES = (
     INERTIA_TRIANGLE,
     SHAPE_APPROXIMATED,
     MESH_HULL,
+    NOT_PLANAR,
+    PLANE_FINITE,
     MOVING_PLANE,
     SIZE,
     JOINT_LIMITS,

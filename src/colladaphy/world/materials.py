@@ -138,6 +138,15 @@ class Materials:
         self._by_name[material.name] = material
         return material
 
+    def copy(self) -> Materials:
+        """The same materials and pairs, which change independently from now on."""
+        twin = Materials.__new__(Materials)
+        twin._by_id = dict(self._by_id)
+        twin._by_name = dict(self._by_name)
+        twin._next_id = self._next_id
+        twin._overrides = dict(self._overrides)
+        return twin
+
     def __getitem__(self, key: str | int) -> Material:
         """The material of a name or of an id; KeyError if there is none."""
         return self._by_name[key] if isinstance(key, str) else self._by_id[key]

@@ -1,0 +1,233 @@
+"""Whether a World stays in one plane, in which plane, and everything that speaks against it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.engines.outlines import Outline, OutlineError, outline
+from colladaphy.engines.rules import MASS, MOVING_PLANE, NOT_PLANAR
+from colladaphy.findings import Finding, Rule
+from colladaphy.world import Body, Kind, rotations
+
+if TYPE_CHECKING:
+    from colladaphy.world import World
+
+__all__ = ["TOLERANCE", "Frame", "Planarity", "analyse", "leaves"]
+
+Floats = NDArray[np.float64]
+
+TOLERANCE = 1e-6
+"""Angles, and lengths and speeds against the largest of the scene, that count as zero."""
+
+_MOST = 10  # bodies named for one reason; the rest are counted
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A plane in space: all points x with normal·x = offset, seen along u and v."""
+
+    normal: Floats
+    u: Floats
+    v: Floats
+    offset: float
+
+    @classmethod
+    def across(cls, normal: Floats, offset: float = 0.0) -> Frame:
+        """The frame of a unit normal; u × v = normal."""
+        # The axis after the normal's largest, in cyclic order: coordinate planes stay exact.
+        first = np.zeros(3)
+        first[(int(np.argmax(np.abs(normal))) + 1) % 3] = 1.0
+        u = first - normal * float(_along(first, normal))
+        u = u / np.sqrt(float(_along(u, u)))
+        return cls(normal, u, np.cross(normal, u), offset)
+
+    def flat(self, vectors: Floats) -> Floats:
+        """Coordinates (..., 2) of vectors (..., 3) along u and v."""
+        return np.stack([_along(vectors, self.u), _along(vectors, self.v)], axis=-1)
+
+    def height(self, vectors: Floats) -> Floats:
+        """Component (...) of vectors (..., 3) along the normal."""
+        return _along(vectors, self.normal)
+
+    def lift(self, flat: Floats, height: Floats | float = 0.0) -> Floats:
+        """Vectors (..., 3) of coordinates (..., 2) and a component along the normal."""
+        up = np.asarray(height)[..., None] * self.normal
+        return np.asarray(up + flat[..., :1] * self.u + flat[..., 1:] * self.v)
+
+
+def _along(vectors: Floats, axis: Floats) -> Floats:
+    # Term by term: the same bits however the array lies in memory.
+    x, y, z = (vectors[..., i] * axis[i] for i in range(3))
+    return np.asarray(x + y + z)
+
+
+@dataclass(slots=True)
+class Planarity:
+    """What the analysis found. The scene is planar if there are no findings."""
+
+    frame: Frame
+    findings: list[Finding]
+    outlines: dict[int, list[Outline]]
+    """Outlines of the shapes of each top-level body, by its system id, in the plane."""
+    size: float
+    """Largest distance of a moving body from the first, or dimension of one."""
+
+
+def leaves(body: Body) -> Iterable[Body]:
+    """The primitives and meshes that a body is made of, in order."""
+    if body.kind is Kind.UNION:
+        for member in body.members:
+            yield from leaves(member)
+    else:
+        yield body
+
+
+def analyse(world: World) -> Planarity:
+    """The plane in which `world` moves, or what speaks against the one that fits best."""
+    moving = np.flatnonzero(~world.fixed)
+    state = _State(world, moving)
+    best: tuple[int, Floats] | None = None
+    for normal in _candidates(state):
+        count = sum(len(bad) for _, bad in state.reasons(normal))
+        if best is None or count < best[0]:
+            best = (count, normal)
+        if count == 0:
+            found = _outlined(state, normal)
+            if not found.findings:
+                return found
+    assert best is not None
+    return _outlined(state, best[1])
+
+
+class _State:
+    """The moving bodies of a World as columns."""
+
+    def __init__(self, world: World, moving: NDArray[Any]) -> None:
+        self.world = world
+        self.moving = moving
+        self.sids = world.sids[moving]
+        self.positions = world.positions[moving]
+        self.gravity = world.gravity
+        self.linear = world.linear_velocities[moving]
+        self.angular = world.angular_velocities[moving]
+        self.forces = world.forces[moving]
+        self.torques = world.torques[moving]
+        self.inertias = rotations.rotate_tensor(world.orientations[moving], world.inertias[moving])
+        reach = self.positions - self.positions[:1]
+        members = world.member_columns
+        finite = members.kinds != Kind.PLANE
+        parts = (world.dimensions[moving], members.dimensions[finite], members.positions[finite])
+        self.size = max(_largest(reach), *map(_largest, parts)) or 1.0
+
+    def reasons(self, normal: Floats) -> list[tuple[str, NDArray[Any]]]:
+        """What speaks against a plane: a text, and the places of the bodies that it is true of."""
+        heights = _along(self.positions - self.positions[:1], normal)
+        weighed = np.einsum("nij,j->ni", self.inertias, normal)
+        tilt = weighed - _along(weighed, normal)[:, None] * normal
+        everything = np.arange(len(self.moving))
+        pulled = abs(float(_along(self.gravity, normal))) > TOLERANCE * _largest(self.gravity)
+        checks = [
+            ("Gravity points out of the plane for", everything[: len(everything) * pulled]),
+            ("The centre lies out of the plane", _above(heights, self.size)),
+            ("The velocity points out of the plane", _leaving(self.linear, normal)),
+            ("The force points out of the plane", _leaving(self.forces, normal)),
+            ("The angular velocity is not across the plane", _turning(self.angular, normal)),
+            ("The torque is not across the plane", _turning(self.torques, normal)),
+            (
+                "The normal of the plane is no principal axis of the inertia",
+                np.flatnonzero(
+                    np.abs(tilt).max(axis=1, initial=0.0)
+                    > TOLERANCE * np.abs(weighed).max(axis=1, initial=0.0)
+                ),
+            ),
+        ]
+        return [(text, bad) for text, bad in checks if len(bad)]
+
+
+def _largest(values: Floats) -> float:
+    return float(np.max(np.abs(values), initial=0.0))
+
+
+def _above(heights: Floats, size: float) -> NDArray[Any]:
+    return np.flatnonzero(np.abs(heights) > TOLERANCE * size)
+
+
+def _leaving(vectors: Floats, normal: Floats) -> NDArray[Any]:
+    return np.flatnonzero(np.abs(_along(vectors, normal)) > TOLERANCE * _largest(vectors))
+
+
+def _turning(vectors: Floats, normal: Floats) -> NDArray[Any]:
+    flat = vectors - _along(vectors, normal)[:, None] * normal
+    return np.flatnonzero(np.abs(flat).max(axis=1, initial=0.0) > TOLERANCE * _largest(vectors))
+
+
+def _candidates(state: _State) -> list[Floats]:
+    """Unit normals that are worth a try, the likely ones first."""
+    found = [np.array(axis) for axis in ((0.0, 1.0, 0.0), (0.0, 0.0, 1.0), (1.0, 0.0, 0.0))]
+    spins = (spin for spin in (state.angular, state.torques) if len(spin))
+    found += [spin[int(np.argmax(np.abs(spin).max(axis=1)))] for spin in spins]
+    reach = state.positions - state.positions[:1]
+    groups = (reach, state.linear, state.forces, state.gravity[None])
+    flat = [group / _largest(group) for group in groups if _largest(group) > 0]
+    if flat:
+        spanned = np.concatenate(flat)
+        # The direction of least extent of everything that has to lie in the plane.
+        found.append(np.linalg.eigh(spanned.T @ spanned)[1][:, 0])
+    for row in state.moving[:3].tolist():
+        found.extend(rotations.to_matrix(state.world.orientations[row]).T)
+    for joint in state.world.joints[:3]:
+        body = joint.body1
+        turn = joint.frame1[1]
+        if body is not None:
+            turn = rotations.multiply(body.orientation, turn)
+        found.extend(rotations.to_matrix(turn).T)
+    unique: list[Floats] = []
+    for candidate in found:
+        length = float(np.linalg.norm(candidate))
+        if length == 0.0:
+            continue
+        normal = candidate / length
+        if not any(abs(float(normal @ other)) > 1.0 - 1e-12 for other in unique):
+            unique.append(normal)
+    return unique
+
+
+def _outlined(state: _State, normal: Floats) -> Planarity:
+    """The full analysis for one normal, shapes included."""
+    offset = float(_along(state.positions[0], normal)) if len(state.moving) else 0.0
+    frame = Frame.across(normal, offset)
+    world = state.world
+    findings: list[Finding] = []
+    for text, bad in state.reasons(normal):
+        findings += _named(NOT_PLANAR, text, [world.body(int(state.sids[i])) for i in bad])
+    outlines: dict[int, list[Outline]] = {}
+    reasons: dict[str, list[Body]] = {}
+    moves = set(state.sids.tolist())
+    for body in world.bodies:
+        shapes = outlines[body.sid] = []
+        for leaf in leaves(body):
+            if leaf.kind is Kind.PLANE and body.sid in moves:
+                findings += _named(MOVING_PLANE, "A plane cannot move", [leaf])
+            try:
+                shapes.append(outline(leaf, frame, TOLERANCE, state.size))
+            except OutlineError as error:
+                reasons.setdefault(str(error), []).append(leaf)
+    for text, bodies in reasons.items():
+        findings += _named(NOT_PLANAR, text, bodies)
+    spin = np.einsum("nij,i,j->n", state.inertias, normal, normal)
+    light = np.flatnonzero(~((world.masses[state.moving] > 0) & (spin > 0)))
+    bodies = [world.body(int(state.sids[i])) for i in light]
+    findings += _named(MASS, "Mass or inertia is not positive", bodies)
+    return Planarity(frame, findings, outlines, state.size)
+
+
+def _named(rule: Rule, text: str, bodies: list[Body]) -> list[Finding]:
+    found = [rule.at(message=f"{text}: {body!r}.") for body in bodies[:_MOST]]
+    if len(bodies) > _MOST:
+        found.append(rule.at(message=f"{text}: {len(bodies) - _MOST} more bodies."))
+    return found
