@@ -5,11 +5,12 @@ from __future__ import annotations
 import copy
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
+from dataclasses import replace
 from typing import cast
 
 from lxml import etree
 
-from colladaphy.conform.grammar import NAMESPACE, ComplexType, root_declaration
+from colladaphy.conform.grammar import NAMESPACE, ComplexType, root_declaration, stated_type
 from colladaphy.findings import Finding, Rule
 
 __all__ = ["CONFORM", "NS", "Context", "local"]
@@ -227,10 +228,10 @@ def type_of(element: etree._Element) -> ComplexType | None:
         kind = declaration.type
         if not isinstance(kind, ComplexType) or step.tag != NS + local(step):
             return None
-        found = kind.children.get(local(step))
-        if found is None:
+        declared = kind.children.get(local(step))
+        if declared is None:
             return None
-        declaration = found
+        declaration = replace(declared, type=stated_type(step, declared.type) or declared.type)
     return declaration.type if isinstance(declaration.type, ComplexType) else None
 
 

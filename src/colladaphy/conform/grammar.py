@@ -18,6 +18,7 @@ from colladaphy.schema import schema_folder
 
 __all__ = [
     "NAMESPACE",
+    "XSI",
     "Attribute",
     "ComplexType",
     "Declaration",
@@ -25,8 +26,10 @@ __all__ = [
     "SimpleType",
     "grammar",
     "root_declaration",
+    "stated_type",
 ]
 
+XSI = "{http://www.w3.org/2001/XMLSchema-instance}"
 NAMESPACE = "http://www.collada.org/2008/03/COLLADASchema"
 _XS = "{http://www.w3.org/2001/XMLSchema}"
 _UNBOUNDED = 1 << 30
@@ -93,9 +96,17 @@ class ComplexType:
     content: Group | None = None
     value: SimpleType | None = None
     anything: bool = False
+    base: ComplexType | None = None
     children: dict[str, Declaration] = field(default_factory=dict)
     _codes: dict[str, str] = field(default_factory=dict)
     _regex: re.Pattern[str] | None = None
+
+    def derives_from(self, other: ComplexType) -> bool:
+        """Whether this is `other` or a type derived from it."""
+        kind: ComplexType | None = self
+        while kind is not None and kind is not other:
+            kind = kind.base
+        return kind is not None
 
     def finish(self) -> None:
         """Index the children once the content model is complete."""
@@ -241,6 +252,7 @@ class _Reader:
             target.value = base
         else:
             self._ensure(base)
+            target.base = base
             target.attributes.update(base.attributes)
             target.value = base.value
             if node.tag == _XS + "extension":
@@ -306,6 +318,25 @@ def grammar() -> dict[str, ComplexType]:
     root = reader.later("COLLADA", body)
     reader.complete()
     return {**reader.complex, "COLLADA": root}
+
+
+def stated_type(
+    element: etree._Element, declared: ComplexType | SimpleType
+) -> ComplexType | SimpleType | None:
+    """The type of an element: the declared one, or one derived from it that its xsi:type names.
+
+    None where xsi:type names something else.
+    """
+    name = element.get(XSI + "type")
+    if name is None:
+        return declared
+    prefix, _, local_name = name.strip().rpartition(":")
+    if element.nsmap.get(prefix or None) != NAMESPACE:
+        return None
+    if isinstance(declared, SimpleType):
+        return declared if declared.name == local_name else None
+    kind = grammar().get(local_name)
+    return kind if kind is not None and kind.derives_from(declared) else None
 
 
 @cache

@@ -7,24 +7,28 @@ a value means, what a reference was) have run before.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from lxml import etree
 
 from colladaphy.conform import rules
 from colladaphy.conform.assumptions import assumed_attribute, assumed_element
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.grammar import (
+    XSI,
     Attribute,
     ComplexType,
     Declaration,
     Group,
     SimpleType,
     root_declaration,
+    stated_type,
 )
 from colladaphy.conform.lexical import is_valid, mend
+from colladaphy.schema import gate
 
-__all__ = ["normalise"]
+__all__ = ["drop_foreign_types", "normalise"]
 
-_XSI = "{http://www.w3.org/2001/XMLSchema-instance}"
 _Pool = dict[str, list[etree._Element]]
 
 
@@ -37,12 +41,17 @@ class _Normaliser:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.hopeless: dict[etree._Element, str] = {}
+        self.stated: set[etree._Element] = set()
 
     def run(self) -> None:
         """Handle every standard element, children before parents."""
         order = [(self.context.root, root_declaration())]
-        for element, declaration in order:
-            kind = declaration.type
+        for position, (element, declaration) in enumerate(order):
+            kind = stated_type(element, declaration.type)
+            if kind is not None and XSI + "type" in element.attrib:
+                self.stated.add(element)
+                order[position] = (element, replace(declaration, type=kind))
+            kind = kind or declaration.type
             if isinstance(kind, ComplexType):
                 for child in element.iterchildren(tag=etree.Element):
                     known = kind.children.get(local(child))
@@ -152,12 +161,19 @@ class _Normaliser:
                 self._missing_attribute(element, attribute)
 
     def _unknown_attribute(self, element: etree._Element, name: str) -> None:
-        if name.startswith(_XSI) or not self.context.wants(rules.UNKNOWN_ATTRIBUTE):
+        if self._is_about_the_schema(element, name) or not self.context.wants(
+            rules.UNKNOWN_ATTRIBUTE
+        ):
             return
         value = str(element.attrib.pop(name))
         message = f"attribute {name}={_short(value)} of <{local(element)}> moved into an extra"
         self.context.note(rules.UNKNOWN_ATTRIBUTE, element, message)
         self.context.keep(element, "attribute", name=name, value=value)
+
+    def _is_about_the_schema(self, element: etree._Element, name: str) -> bool:
+        if name == XSI + "type":
+            return element in self.stated
+        return name in (XSI + "schemaLocation", XSI + "noNamespaceSchemaLocation")
 
     def _attribute_value(self, element: etree._Element, known: Attribute, value: str) -> None:
         mended, less = mend(value, known.type)
@@ -377,3 +393,24 @@ def _short(text: str) -> str:
 
 def _xml_text(text: str) -> str:
     return " ".join(text.split())
+
+
+def drop_foreign_types(context: Context) -> None:
+    """An xsi:type inside of a technique that the schema cannot follow makes a document invalid."""
+    name = XSI + "type"
+    stating = [
+        element
+        for technique in context.root.iter(NS + "technique")
+        for element in technique.iterdescendants(etree.Element)
+        if name in element.attrib
+    ]
+    if not stating or not gate(context.root.getroottree()):
+        return
+    for element in dict.fromkeys(stating):
+        technique = next(element.iterancestors(NS + "technique"))
+        if not context.wants(rules.UNKNOWN_ATTRIBUTE) or technique.get("profile") is None:
+            continue
+        value = str(element.attrib.pop(name))
+        message = f"xsi:type={_short(value)} of <{local(element)}> names no type of the schema"
+        context.note(rules.UNKNOWN_ATTRIBUTE, element, message)
+        context.keep(technique, "attribute", name=name, value=value)

@@ -11,7 +11,7 @@ from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import translate
 from colladaphy.conform.conventions.units import free_limits
 from colladaphy.conform.identifiers import mend_ids, mend_sids
-from colladaphy.conform.normalise import normalise
+from colladaphy.conform.normalise import drop_foreign_types, normalise
 from colladaphy.conform.versions import copy_as_1_5, detect_version, note_version
 from colladaphy.findings import Finding
 
@@ -55,6 +55,7 @@ _COMPLETE: tuple[_Step, ...] = (
     structure.give_geometries_content,
     structure.drop_empty_libraries,
     normalise,
+    drop_foreign_types,
 )
 
 

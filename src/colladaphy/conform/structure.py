@@ -10,7 +10,7 @@ from lxml import etree
 
 from colladaphy.conform import rules
 from colladaphy.conform.context import NS, Context, append, insert, local, remove, rename
-from colladaphy.conform.grammar import ComplexType, grammar, root_declaration
+from colladaphy.conform.grammar import ComplexType, grammar, root_declaration, stated_type
 
 __all__ = [
     "correct_names",
@@ -38,8 +38,9 @@ def typed_elements(root: etree._Element) -> Iterator[tuple[etree._Element, Compl
         below = []
         for child in element.iterchildren(tag=etree.Element):
             known = kind.children.get(local(child))
-            if known is not None and isinstance(known.type, ComplexType):
-                below.append((child, known.type))
+            kind_below = None if known is None else stated_type(child, known.type)
+            if isinstance(kind_below, ComplexType):
+                below.append((child, kind_below))
         stack.extend(reversed(below))
 
 

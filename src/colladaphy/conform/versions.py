@@ -74,6 +74,11 @@ def _is_old(tag: str) -> bool:
     return "collada.org" in namespace and namespace.rstrip("/").endswith("COLLADASchema")
 
 
+def _other_namespaces(root: etree._Element) -> set[str]:
+    tags = {str(element.tag) for element in root.iter(etree.Element)}
+    return {tag[1:].partition("}")[0] for tag in tags if _is_old(tag)}
+
+
 def _rebuild(old: etree._Element) -> etree._Element:
     bare = etree.QName(old).namespace is None
     foreign = etree.QName(old).namespace
@@ -136,10 +141,13 @@ def note_version(context: Context, original: etree._Element, version: str) -> No
             f"the document was COLLADA {version} ({namespace or 'no namespace'}), is now 1.5.0"
         )
         context.note(rules.VERSION, root, message)
+    elif namespace == NAMESPACE and (strays := _other_namespaces(original)):
+        message = f"elements were in {', '.join(sorted(strays))}, are now in {NAMESPACE}"
+        context.note(rules.NAMESPACE_FIXED, root, message)
     elif namespace != NAMESPACE:
         message = f"the namespace was {namespace or 'missing'}, is now {NAMESPACE}"
         context.note(rules.NAMESPACE_FIXED, root, message)
-    elif original.get("version") != "1.5.0":
+    if not version.startswith("1.4") and original.get("version") != "1.5.0":
         message = f"version was {original.get('version')!r}, is now '1.5.0'"
         context.note(rules.VERSION_ATTRIBUTE, root, message)
     if local(root) != "COLLADA":
