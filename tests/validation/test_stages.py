@@ -7,6 +7,8 @@ import json
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import colladaphy
 from colladaphy import Limits, Severity, validate
@@ -99,6 +101,31 @@ def test_references_that_loading_can_do_without_are_warnings(old: bytes, new: by
         ("link-missing", Severity.WARNING)
     ]
     colladaphy.read(VALID.replace(old, new)).load()
+
+
+def test_nested_models_in_a_circle_and_in_a_tower() -> None:
+    """Models that instance each other must neither hang the check nor blow it up."""
+    models = "".join(
+        f'<physics_model id="m{i}">'
+        + f'<instance_physics_model url="#m{(i + 1) % 60}"/>' * 2
+        + "</physics_model>"
+        for i in range(60)
+    )
+    data = VALID.replace(
+        b"</library_physics_models>", models.encode() + b"</library_physics_models>"
+    )
+    assert validate(data.replace(b'url="#model"', b'url="#m0"')).errors
+    assert validate(data).valid
+
+
+@given(
+    st.integers(0, len(VALID) - 1),
+    st.integers(0, 40),
+    st.one_of(st.binary(max_size=3), st.sampled_from([b'"', b"<", b"#", b"/", b" ", b"&#0;"])),
+)
+def test_damage_is_reported_and_never_raised(at: int, length: int, junk: bytes) -> None:
+    report = validate(VALID[:at] + junk + VALID[at + length :])
+    assert report.valid or all(finding.hint for finding in report.errors)
 
 
 def test_references_in_techniques_are_left_alone() -> None:

@@ -19,7 +19,7 @@ from colladaphy.source import COLLADA_1_5
 from colladaphy.source import rules as source_rules
 
 if TYPE_CHECKING:
-    from colladaphy.document import Document
+    from colladaphy.document import Document, Target
 
 __all__ = ["check_links"]
 
@@ -155,31 +155,29 @@ class _Parts:
             model = self._document.resolve(instance.get("url", ""), instance, "physics_model")
         except ColladaError:
             return []  # reported at the instance
-        if sid.rpartition("/")[2] in self._all(model.document, model.element, kind, ()):
+        if sid.rpartition("/")[2] in self._all(model, kind):
             return []
         message = f"The physics model {instance.get('url')!r} has no <{kind}> of sid {sid!r}."
         return [rules.MISSING.at(element, message)]
 
-    def _all(
-        self,
-        document: Document,
-        model: etree._Element,
-        kind: str,
-        above: tuple[etree._Element, ...],
-    ) -> frozenset[str]:
-        """Sids in the model and in the models that it instances."""
-        known = self._sids.get((model, kind))
+    def _all(self, model: Target, kind: str) -> frozenset[str]:
+        """Sids in the model and in the models that it instances, each looked at once."""
+        known = self._sids.get((model.element, kind))
         if known is not None:
             return known
-        sids = {part.get("sid", "") for part in model.iterchildren(_NS + kind)}
-        for inner in model.iterchildren(_NS + "instance_physics_model"):
-            try:
-                target = document.resolve(inner.get("url", ""), inner, "physics_model")
-            except ColladaError:
-                continue
-            if target.element is not model and target.element not in above:
-                sids |= self._all(target.document, target.element, kind, (*above, model))
-        found = frozenset(sids)
-        if not above:
-            self._sids[(model, kind)] = found
-        return found
+        sids: set[str] = set()
+        seen = {model.element}
+        waiting = [model]
+        while waiting:
+            target = waiting.pop()
+            sids.update(part.get("sid", "") for part in target.element.iterchildren(_NS + kind))
+            for inner in target.element.iterchildren(_NS + "instance_physics_model"):
+                try:
+                    found = target.document.resolve(inner.get("url", ""), inner, "physics_model")
+                except ColladaError:
+                    continue
+                if found.element not in seen:
+                    seen.add(found.element)
+                    waiting.append(found)
+        self._sids[(model.element, kind)] = frozenset(sids)
+        return self._sids[(model.element, kind)]
