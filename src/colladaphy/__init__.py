@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from colladaphy.source import Limits as Limits
     from colladaphy.validation import validate as validate
     from colladaphy.world import World as World
+    from colladaphy.world import compare as compare
 
 __version__ = "0.1.0"
 
@@ -49,6 +50,7 @@ _HOME = {
     "WorldError": "errors",
     "WriteOptions": "mapper",
     "XmlError": "errors",
+    "compare": "world",
     "read": "document",
     "validate": "validation",
     "write": "document",
