@@ -27,7 +27,7 @@ def scene_for(engine: Engine, name: str) -> Simulation:
 
 
 @pytest.mark.parametrize("scene", list(SCENES))
-@pytest.mark.parametrize("at", [0, 1, 37, 150, 400])
+@pytest.mark.parametrize("at", [0, 1, 37, 150, 400, 1500])
 def test_resumed_run_equals_the_run_that_went_on(
     engine: Engine, scene: str, at: int, tmp_path: Path
 ) -> None:
@@ -149,7 +149,7 @@ def test_indices_that_lead_out_of_bounds_are_refused(scene: str) -> None:
 
     engine = create_engine("mujoco")
     simulation = Simulation(SCENES[scene](), engine)
-    simulation.run(400)
+    simulation.run(1500)
     assert simulation.world.sleeping.any()
     compiled, data = engine._model.compiled, engine._data
     head, _, floats = zlib.decompress(memory.remember(compiled, data)).partition(b"\n")

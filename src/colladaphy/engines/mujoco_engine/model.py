@@ -31,6 +31,8 @@ Floats = NDArray[np.float64]
 
 _SLEEP = 0.05  # of the velocity that gravity gives in one step
 _SLEEP_MOST = 1e-3
+_HARD = 2.0  # steps: the least that MuJoCo is stable with
+_SOFT = 6.0  # steps: harder contacts are pushed off what they slide on
 _FAR = 1e10  # what MuJoCo takes for infinity
 
 
@@ -59,7 +61,7 @@ def build(world: World) -> Model:
     for sid in forest.order:
         builder.add_moving(sid)
     for number in forest.loops:
-        close(spec, joints[number], builder.bodies, _solref(world))
+        close(spec, joints[number], builder.bodies, _solref(world, _HARD))
     builder.add_contacts()
     try:
         compiled = spec.compile()
@@ -71,9 +73,9 @@ def build(world: World) -> Model:
     return Model(compiled, forest, builder.hangings, numbers, np.array(sids, dtype=np.int64))
 
 
-def _solref(world: World) -> list[float]:
-    # MuJoCo asks for a time constant of two steps at least; at four, what slides is not lifted.
-    return [4.0 * float(world.time_step or 0.0), 1.0]
+def _solref(world: World, steps: float) -> list[float]:
+    """Time constant and damping ratio with which MuJoCo mends what is violated."""
+    return [steps * float(world.time_step or 0.0), 1.0]
 
 
 def _set_options(spec: Any, world: World) -> None:
@@ -103,7 +105,7 @@ class _Builder:
         self.joints = joints
         self.shapes = Shapes(spec, world)
         self.surfaces = surfaces(world, count_materials(world))[0]
-        self.solref = _solref(world)
+        self.solref = _solref(world, _SOFT)
         self.bodies: dict[int, Any] = {0: spec.worldbody}
         self.groups: dict[int, int] = {0: 0}
         self.hangings: dict[int, Hanging] = {}
@@ -163,7 +165,7 @@ class _Builder:
         made.align = mujoco.mjtAlignFree.mjALIGNFREE_FALSE
         made.pos = hanging.anchor
         made.axis = freedom.axis
-        made.solref_limit = self.solref
+        made.solref_limit = _solref(self.world, _HARD)
         if freedom.kind == "slide":
             low, high, spring = joint.linear_min, joint.linear_max, joint.linear_spring
         else:
