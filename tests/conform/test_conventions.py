@@ -5,7 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from lxml import etree
-from tests.conform.documents import ASSET, BOX, MESH, C, codes, document, mended, physics, words
+from tests.conform.documents import (
+    ASSET,
+    BOX,
+    MESH,
+    NS_1_5,
+    C,
+    codes,
+    document,
+    mended,
+    physics,
+    words,
+)
 
 from colladaphy.conform import conform
 from colladaphy.conform.conventions import CONVENTIONS
@@ -220,3 +231,18 @@ def test_every_convention_can_be_named() -> None:
         _, findings = mended(physics(BOX), convention=convention.name)
         assert codes(findings) == {"convention-chosen"}
         assert convention.name in findings[0].message
+
+
+def test_what_was_written_for_bullet_comes_back() -> None:
+    shapes = "<shape><plane><equation>0 0 1 6</equation></plane></shape>"
+    tree = physics(shapes, instances=MOVING)
+    mark = (
+        f'<extra xmlns="{NS_1_5}"><technique profile="colladaphy"><written_for '
+        'xmlns="urn:colladaphy:conform:1">Bullet</written_for></technique></extra>'
+    )
+    tree.getroot().append(etree.fromstring(mark))
+    root, findings = mended(tree)
+    assert words(root, "equation") == ["0", "0", "1", "-6"]
+    assert float(words(root, "angular_velocity")[1]) == np.degrees(3.5)
+    assert "written_for" not in etree.tostring(root, encoding="unicode")
+    assert "written for Bullet" in findings[0].message

@@ -1,8 +1,8 @@
 """Conventions: producers that mean something else than the standard by what they write.
 
 Each is recognised by what a document says about itself, checked against its numbers where they
-can tell, and translated once. A note in the document's extras (`translated`) keeps it from being
-translated again; another (`written`) is left by our own writers for other programs.
+can tell, and translated once. A note in the document's extras (`convention`) keeps it from being
+translated again; another (`written_for`) is left by our own writers for other programs.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from colladaphy.conform import rules
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import blender, model_frames, units
-from colladaphy.conform.conventions.clues import Clues, add_note, find_note, read_clues
+from colladaphy.conform.conventions.clues import Clues, add_note, drop_note, find_note, read_clues
 
 __all__ = ["CONVENTIONS", "Convention", "translate"]
 
@@ -106,7 +106,7 @@ def translate(context: Context, convention: str) -> None:
     if convention not in ("auto", "none", *by_name):
         names = ", ".join(["auto", "none", *by_name])
         raise ValueError(f"there is no convention {convention!r}; choose one of {names}")
-    if convention == "none" or find_note(context, "translated") is not None:
+    if convention == "none" or find_note(context, "convention") is not None:
         return
     clues = read_clues(context)
     chosen = by_name.get(convention)
@@ -121,8 +121,5 @@ def translate(context: Context, convention: str) -> None:
     message = f"the document is read as {chosen.name} means it ({chosen.summary}): {why}"
     context.note(rules.CONVENTION, context.root, message)
     chosen.apply(context, convention == chosen.name, clues)
-    note = find_note(context, "written")
-    if note is not None and (extra := note.getparent()) is not None:
-        extra.remove(note)  # true of the file, not of the translated document
-        note = None
-    add_note(context, "translated", **{"from": chosen.name})
+    drop_note(context, "written_for")  # true of the file, not of the translated document
+    add_note(context, "convention", name=chosen.name)

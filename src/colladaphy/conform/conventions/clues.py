@@ -7,11 +7,20 @@ from dataclasses import dataclass
 import numpy as np
 from lxml import etree
 
-from colladaphy.conform.context import CONFORM, NS, OWN_MAP, Context, append, local
+from colladaphy.conform.context import CONFORM, NS, OWN_MAP, Context, append, local, remove
 from colladaphy.conform.frames import Matrix, transform_of
 from colladaphy.conform.solids import numbers_of
 
-__all__ = ["Clues", "add_note", "extents", "find_note", "place_of", "read_clues", "write_numbers"]
+__all__ = [
+    "Clues",
+    "add_note",
+    "drop_note",
+    "extents",
+    "find_note",
+    "place_of",
+    "read_clues",
+    "write_numbers",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,8 +58,8 @@ def read_clues(context: Context) -> Clues:
         if element.get("profile")
     }
     models = {element.get("id", "") for element in context.all("physics_model")}
-    note = find_note(context, "written")
-    written_for = None if note is None else note.get("for")
+    note = find_note(context, "written_for")
+    written_for = None if note is None else (note.text or "").strip().lower()
     bare_pe = any(
         child.tag.startswith(NS)
         for technique in context.root.iter(NS + "technique")
@@ -68,10 +77,23 @@ def find_note(context: Context, name: str) -> etree._Element | None:
     return None
 
 
-def add_note(context: Context, name: str, **values: str) -> None:
+def drop_note(context: Context, name: str) -> None:
+    """Take a note of ours out, and the extra that held nothing else."""
+    note = find_note(context, name)
+    if note is None:
+        return
+    technique = note.getparent()
+    extra = None if technique is None else technique.getparent()
+    if technique is not None and extra is not None:
+        remove(note)
+        if not len(technique) and len(extra) == 1:
+            remove(extra)
+
+
+def add_note(context: Context, tag: str, /, **values: str) -> None:
     """Add a note of ours to the extras of the document itself."""
     extra, technique = context.make("extra"), context.make("technique", profile="colladaphy")
-    note = etree.SubElement(technique, f"{{{CONFORM}}}{name}", nsmap=OWN_MAP)
+    note = etree.SubElement(technique, f"{{{CONFORM}}}{tag}", nsmap=OWN_MAP)
     for key, value in values.items():
         note.set(key, value)
     extra.append(technique)
