@@ -19,7 +19,7 @@ def test_the_examples_run(
     monkeypatch.chdir(tmp_path)
     names: dict[str, Any] = {}
     for number, block in enumerate(BLOCKS):
-        exec(compile(block, f"README.md, example {number + 1}", "exec"), names)  # noqa: S102
+        exec(compile(block, f"README.md, example {number + 1}", "exec"), names)
         if (scene := tmp_path / "scene.dae").exists() and not (tmp_path / "found.dae").exists():
             (tmp_path / "found.dae").write_bytes(scene.read_bytes())
     assert capsys.readouterr().out.splitlines()[-1] == "[]"
