@@ -63,6 +63,9 @@ def decode_ChannelType(e):
             v_target = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_source is REQUIRED:
         missing(e, "source")
     o.source = v_source

@@ -98,7 +98,9 @@ def encode(
     name = registry.PREFIXES[uri] + local
     try:
         encoder_of(type(obj))(obj, chunks.append, name, indent)
-    except (TypeError, AttributeError) as error:
+    except CodecError:
+        raise
+    except (TypeError, AttributeError, ValueError) as error:
         raise CodecError(f"{type(obj).__name__} holds a value of a wrong type: {error}") from error
     text = "".join(chunks)
     head = len(indent) + 1 + len(name)

@@ -191,6 +191,9 @@ def decode_AssetTypeUnit(e):
                 stated += ("meter",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.name = v_name
     o.meter = v_meter
     o._stated = stated
@@ -356,6 +359,9 @@ def decode_InputGlobalType(e):
             v_semantic = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_source is REQUIRED:
         missing(e, "source")
     o.source = v_source
@@ -389,6 +395,9 @@ def decode_InputLocalOffsetType(e):
             v_set = integer(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_source is REQUIRED:
         missing(e, "source")
     o.source = v_source
@@ -424,6 +433,9 @@ def decode_InputLocalType(e):
             v_semantic = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_source is REQUIRED:
         missing(e, "source")
     o.source = v_source

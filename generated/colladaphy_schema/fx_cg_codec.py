@@ -577,6 +577,9 @@ def decode_CgPassTypeProgramShaderBindUniformParam(e):
             v_ref = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_ref is REQUIRED:
         missing(e, "ref")
     o.ref = v_ref

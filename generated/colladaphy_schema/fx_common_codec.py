@@ -362,6 +362,9 @@ def decode_FxCommonColorOrTextureTypeParam(e):
             v_ref = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_ref is REQUIRED:
         missing(e, "ref")
     o.ref = v_ref
@@ -407,6 +410,9 @@ def decode_FxCommonFloatOrParamTypeParam(e):
             v_ref = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_ref is REQUIRED:
         missing(e, "ref")
     o.ref = v_ref
@@ -430,6 +436,9 @@ def decode_FxIncludeType(e):
             v_url = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_sid is REQUIRED:
         missing(e, "sid")
     o.sid = v_sid
@@ -454,6 +463,9 @@ def decode_FxRendertargetTypeParam(e):
             v_ref = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_ref is REQUIRED:
         missing(e, "ref")
     o.ref = v_ref
@@ -474,6 +486,9 @@ def decode_FxSourcesTypeImport(e):
             v_ref = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_ref is REQUIRED:
         missing(e, "ref")
     o.ref = v_ref
@@ -1212,6 +1227,9 @@ def decode_FxSampler1DType(e):
     v_mip_bias = None
     v_max_anisotropy = None
     v_extra = None
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.instance_image = v_instance_image
     o.wrap_s = v_wrap_s
     o.wrap_t = v_wrap_t
@@ -1248,6 +1266,9 @@ def decode_FxSampler2DType(e):
     v_mip_bias = None
     v_max_anisotropy = None
     v_extra = None
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.instance_image = v_instance_image
     o.wrap_s = v_wrap_s
     o.wrap_t = v_wrap_t
@@ -1284,6 +1305,9 @@ def decode_FxSampler3DType(e):
     v_mip_bias = None
     v_max_anisotropy = None
     v_extra = None
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.instance_image = v_instance_image
     o.wrap_s = v_wrap_s
     o.wrap_t = v_wrap_t
@@ -1320,6 +1344,9 @@ def decode_FxSamplerCubeType(e):
     v_mip_bias = None
     v_max_anisotropy = None
     v_extra = None
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.instance_image = v_instance_image
     o.wrap_s = v_wrap_s
     o.wrap_t = v_wrap_t
@@ -1356,6 +1383,9 @@ def decode_FxSamplerDepthType(e):
     v_mip_bias = None
     v_max_anisotropy = None
     v_extra = None
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.instance_image = v_instance_image
     o.wrap_s = v_wrap_s
     o.wrap_t = v_wrap_t
@@ -1392,6 +1422,9 @@ def decode_FxSamplerRectType(e):
     v_mip_bias = None
     v_max_anisotropy = None
     v_extra = None
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.instance_image = v_instance_image
     o.wrap_s = v_wrap_s
     o.wrap_t = v_wrap_t

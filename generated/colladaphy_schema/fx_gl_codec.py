@@ -449,6 +449,9 @@ def decode_CgPassTypeStatesAlphaFuncValue(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -480,6 +483,9 @@ def decode_CgPassTypeStatesAlphaTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -523,6 +529,9 @@ def decode_CgPassTypeStatesBlendColor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -559,6 +568,9 @@ def decode_CgPassTypeStatesBlendEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -605,6 +617,9 @@ def decode_CgPassTypeStatesClipPlane(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -648,6 +663,9 @@ def decode_CgPassTypeStatesClipPlaneEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -683,6 +701,9 @@ def decode_CgPassTypeStatesColorLogicOpEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -726,6 +747,9 @@ def decode_CgPassTypeStatesColorMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -762,6 +786,9 @@ def decode_CgPassTypeStatesColorMaterialEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -793,6 +820,9 @@ def decode_CgPassTypeStatesCullFaceEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -826,6 +856,9 @@ def decode_CgPassTypeStatesDepthBounds(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -857,6 +890,9 @@ def decode_CgPassTypeStatesDepthBoundsEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -888,6 +924,9 @@ def decode_CgPassTypeStatesDepthClampEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -919,6 +958,9 @@ def decode_CgPassTypeStatesDepthMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -958,6 +1000,9 @@ def decode_CgPassTypeStatesDepthRange(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -992,6 +1037,9 @@ def decode_CgPassTypeStatesDepthTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1023,6 +1071,9 @@ def decode_CgPassTypeStatesDitherEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1066,6 +1117,9 @@ def decode_CgPassTypeStatesFogColor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1102,6 +1156,9 @@ def decode_CgPassTypeStatesFogDensity(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1133,6 +1190,9 @@ def decode_CgPassTypeStatesFogEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1164,6 +1224,9 @@ def decode_CgPassTypeStatesFogEnd(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1195,6 +1258,9 @@ def decode_CgPassTypeStatesFogStart(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1241,6 +1307,9 @@ def decode_CgPassTypeStatesLightAmbient(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1284,6 +1353,9 @@ def decode_CgPassTypeStatesLightConstantAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1334,6 +1406,9 @@ def decode_CgPassTypeStatesLightDiffuse(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1377,6 +1452,9 @@ def decode_CgPassTypeStatesLightEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1415,6 +1493,9 @@ def decode_CgPassTypeStatesLightLinearAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1462,6 +1543,9 @@ def decode_CgPassTypeStatesLightModelAmbient(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1498,6 +1582,9 @@ def decode_CgPassTypeStatesLightModelLocalViewerEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1529,6 +1616,9 @@ def decode_CgPassTypeStatesLightModelTwoSideEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1575,6 +1665,9 @@ def decode_CgPassTypeStatesLightPosition(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1618,6 +1711,9 @@ def decode_CgPassTypeStatesLightQuadraticAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1668,6 +1764,9 @@ def decode_CgPassTypeStatesLightSpecular(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1711,6 +1810,9 @@ def decode_CgPassTypeStatesLightSpotCutoff(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1759,6 +1861,9 @@ def decode_CgPassTypeStatesLightSpotDirection(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1801,6 +1906,9 @@ def decode_CgPassTypeStatesLightSpotExponent(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1836,6 +1944,9 @@ def decode_CgPassTypeStatesLightingEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1867,6 +1978,9 @@ def decode_CgPassTypeStatesLineSmoothEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1906,6 +2020,9 @@ def decode_CgPassTypeStatesLineStipple(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1940,6 +2057,9 @@ def decode_CgPassTypeStatesLineStippleEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1971,6 +2091,9 @@ def decode_CgPassTypeStatesLineWidth(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2002,6 +2125,9 @@ def decode_CgPassTypeStatesLogicOpEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2045,6 +2171,9 @@ def decode_CgPassTypeStatesMaterialAmbient(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2093,6 +2222,9 @@ def decode_CgPassTypeStatesMaterialDiffuse(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2141,6 +2273,9 @@ def decode_CgPassTypeStatesMaterialEmission(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2177,6 +2312,9 @@ def decode_CgPassTypeStatesMaterialShininess(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2220,6 +2358,9 @@ def decode_CgPassTypeStatesMaterialSpecular(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2292,6 +2433,9 @@ def decode_CgPassTypeStatesModelViewMatrix(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2340,6 +2484,9 @@ def decode_CgPassTypeStatesMultisampleEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2371,6 +2518,9 @@ def decode_CgPassTypeStatesNormalizeEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2412,6 +2562,9 @@ def decode_CgPassTypeStatesPointDistanceAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2447,6 +2600,9 @@ def decode_CgPassTypeStatesPointFadeThresholdSize(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2478,6 +2634,9 @@ def decode_CgPassTypeStatesPointSize(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2509,6 +2668,9 @@ def decode_CgPassTypeStatesPointSizeMax(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2540,6 +2702,9 @@ def decode_CgPassTypeStatesPointSizeMin(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2571,6 +2736,9 @@ def decode_CgPassTypeStatesPointSmoothEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2610,6 +2778,9 @@ def decode_CgPassTypeStatesPolygonOffset(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2644,6 +2815,9 @@ def decode_CgPassTypeStatesPolygonOffsetFillEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2675,6 +2849,9 @@ def decode_CgPassTypeStatesPolygonOffsetLineEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2706,6 +2883,9 @@ def decode_CgPassTypeStatesPolygonOffsetPointEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2737,6 +2917,9 @@ def decode_CgPassTypeStatesPolygonSmoothEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2768,6 +2951,9 @@ def decode_CgPassTypeStatesPolygonStippleEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2835,6 +3021,9 @@ def decode_CgPassTypeStatesProjectionMatrix(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2883,6 +3072,9 @@ def decode_CgPassTypeStatesRescaleNormalEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2914,6 +3106,9 @@ def decode_CgPassTypeStatesSampleAlphaToCoverageEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2945,6 +3140,9 @@ def decode_CgPassTypeStatesSampleAlphaToOneEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2976,6 +3174,9 @@ def decode_CgPassTypeStatesSampleCoverageEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3009,6 +3210,9 @@ def decode_CgPassTypeStatesScissor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3040,6 +3244,9 @@ def decode_CgPassTypeStatesScissorTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3071,6 +3278,9 @@ def decode_CgPassTypeStatesStencilFuncMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3102,6 +3312,9 @@ def decode_CgPassTypeStatesStencilFuncRef(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3133,6 +3346,9 @@ def decode_CgPassTypeStatesStencilFuncSeparateMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3164,6 +3380,9 @@ def decode_CgPassTypeStatesStencilFuncSeparateRef(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3195,6 +3414,9 @@ def decode_CgPassTypeStatesStencilMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3226,6 +3448,9 @@ def decode_CgPassTypeStatesStencilMaskSeparateMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3257,6 +3482,9 @@ def decode_CgPassTypeStatesStencilTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3337,6 +3565,9 @@ def decode_CgPassTypeStatesTexture1DEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -3421,6 +3652,9 @@ def decode_CgPassTypeStatesTexture2DEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -3505,6 +3739,9 @@ def decode_CgPassTypeStatesTexture3DEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -3589,6 +3826,9 @@ def decode_CgPassTypeStatesTextureCubeEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -3673,6 +3913,9 @@ def decode_CgPassTypeStatesTextureDepthEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -3757,6 +4000,9 @@ def decode_CgPassTypeStatesTextureRectEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -3797,6 +4043,9 @@ def decode_CgPassTypeStatesTextureEnvColor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -3832,6 +4081,9 @@ def decode_CgPassTypeStatesTextureEnvMode(e):
             v_value = x
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -3866,6 +4118,9 @@ def decode_ProfileGlslTypeTechniquePassStatesAlphaFuncValue(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3897,6 +4152,9 @@ def decode_ProfileGlslTypeTechniquePassStatesAlphaTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3940,6 +4198,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendColor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3976,6 +4237,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4022,6 +4286,9 @@ def decode_ProfileGlslTypeTechniquePassStatesClipPlane(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -4065,6 +4332,9 @@ def decode_ProfileGlslTypeTechniquePassStatesClipPlaneEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -4100,6 +4370,9 @@ def decode_ProfileGlslTypeTechniquePassStatesColorLogicOpEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4143,6 +4416,9 @@ def decode_ProfileGlslTypeTechniquePassStatesColorMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4179,6 +4455,9 @@ def decode_ProfileGlslTypeTechniquePassStatesColorMaterialEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4210,6 +4489,9 @@ def decode_ProfileGlslTypeTechniquePassStatesCullFaceEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4243,6 +4525,9 @@ def decode_ProfileGlslTypeTechniquePassStatesDepthBounds(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4274,6 +4559,9 @@ def decode_ProfileGlslTypeTechniquePassStatesDepthBoundsEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4305,6 +4593,9 @@ def decode_ProfileGlslTypeTechniquePassStatesDepthClampEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4336,6 +4627,9 @@ def decode_ProfileGlslTypeTechniquePassStatesDepthMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4375,6 +4669,9 @@ def decode_ProfileGlslTypeTechniquePassStatesDepthRange(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4409,6 +4706,9 @@ def decode_ProfileGlslTypeTechniquePassStatesDepthTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4440,6 +4740,9 @@ def decode_ProfileGlslTypeTechniquePassStatesDitherEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4483,6 +4786,9 @@ def decode_ProfileGlslTypeTechniquePassStatesFogColor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4519,6 +4825,9 @@ def decode_ProfileGlslTypeTechniquePassStatesFogDensity(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4550,6 +4859,9 @@ def decode_ProfileGlslTypeTechniquePassStatesFogEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4581,6 +4893,9 @@ def decode_ProfileGlslTypeTechniquePassStatesFogEnd(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4612,6 +4927,9 @@ def decode_ProfileGlslTypeTechniquePassStatesFogStart(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4658,6 +4976,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightAmbient(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -4701,6 +5022,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightConstantAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -4751,6 +5075,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightDiffuse(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -4794,6 +5121,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -4832,6 +5162,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightLinearAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -4879,6 +5212,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightModelAmbient(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4915,6 +5251,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightModelLocalViewerEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4946,6 +5285,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightModelTwoSideEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -4992,6 +5334,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightPosition(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -5035,6 +5380,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightQuadraticAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -5085,6 +5433,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightSpecular(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -5128,6 +5479,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightSpotCutoff(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -5176,6 +5530,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightSpotDirection(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -5218,6 +5575,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightSpotExponent(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -5253,6 +5613,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightingEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5284,6 +5647,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLineSmoothEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5323,6 +5689,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLineStipple(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5357,6 +5726,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLineStippleEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5388,6 +5760,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLineWidth(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5419,6 +5794,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLogicOpEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5462,6 +5840,9 @@ def decode_ProfileGlslTypeTechniquePassStatesMaterialAmbient(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5510,6 +5891,9 @@ def decode_ProfileGlslTypeTechniquePassStatesMaterialDiffuse(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5558,6 +5942,9 @@ def decode_ProfileGlslTypeTechniquePassStatesMaterialEmission(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5594,6 +5981,9 @@ def decode_ProfileGlslTypeTechniquePassStatesMaterialShininess(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5637,6 +6027,9 @@ def decode_ProfileGlslTypeTechniquePassStatesMaterialSpecular(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5709,6 +6102,9 @@ def decode_ProfileGlslTypeTechniquePassStatesModelViewMatrix(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5757,6 +6153,9 @@ def decode_ProfileGlslTypeTechniquePassStatesMultisampleEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5788,6 +6187,9 @@ def decode_ProfileGlslTypeTechniquePassStatesNormalizeEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5829,6 +6231,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPointDistanceAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5864,6 +6269,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPointFadeThresholdSize(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5895,6 +6303,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPointSize(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5926,6 +6337,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPointSizeMax(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5957,6 +6371,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPointSizeMin(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -5988,6 +6405,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPointSmoothEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6027,6 +6447,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPolygonOffset(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6061,6 +6484,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPolygonOffsetFillEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6092,6 +6518,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPolygonOffsetLineEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6123,6 +6552,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPolygonOffsetPointEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6154,6 +6586,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPolygonSmoothEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6185,6 +6620,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPolygonStippleEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6252,6 +6690,9 @@ def decode_ProfileGlslTypeTechniquePassStatesProjectionMatrix(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6300,6 +6741,9 @@ def decode_ProfileGlslTypeTechniquePassStatesRescaleNormalEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6331,6 +6775,9 @@ def decode_ProfileGlslTypeTechniquePassStatesSampleAlphaToCoverageEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6362,6 +6809,9 @@ def decode_ProfileGlslTypeTechniquePassStatesSampleAlphaToOneEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6393,6 +6843,9 @@ def decode_ProfileGlslTypeTechniquePassStatesSampleCoverageEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6426,6 +6879,9 @@ def decode_ProfileGlslTypeTechniquePassStatesScissor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6457,6 +6913,9 @@ def decode_ProfileGlslTypeTechniquePassStatesScissorTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6488,6 +6947,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilFuncMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6519,6 +6981,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilFuncRef(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6550,6 +7015,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilFuncSeparateMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6581,6 +7049,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilFuncSeparateRef(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6612,6 +7083,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6643,6 +7117,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilMaskSeparateMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6674,6 +7151,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -6754,6 +7234,9 @@ def decode_ProfileGlslTypeTechniquePassStatesTexture1DEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -6838,6 +7321,9 @@ def decode_ProfileGlslTypeTechniquePassStatesTexture2DEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -6922,6 +7408,9 @@ def decode_ProfileGlslTypeTechniquePassStatesTexture3DEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -7006,6 +7495,9 @@ def decode_ProfileGlslTypeTechniquePassStatesTextureCubeEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -7090,6 +7582,9 @@ def decode_ProfileGlslTypeTechniquePassStatesTextureDepthEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -7174,6 +7669,9 @@ def decode_ProfileGlslTypeTechniquePassStatesTextureRectEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -7214,6 +7712,9 @@ def decode_ProfileGlslTypeTechniquePassStatesTextureEnvColor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -7249,6 +7750,9 @@ def decode_ProfileGlslTypeTechniquePassStatesTextureEnvMode(e):
             v_value = x
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -7283,6 +7787,9 @@ def decode_CgPassTypeStatesAlphaFuncFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7314,6 +7821,9 @@ def decode_CgPassTypeStatesBlendEquation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7345,6 +7855,9 @@ def decode_CgPassTypeStatesBlendEquationSeparateAlpha(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7376,6 +7889,9 @@ def decode_CgPassTypeStatesBlendEquationSeparateRgb(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7407,6 +7923,9 @@ def decode_CgPassTypeStatesBlendFuncDest(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7438,6 +7957,9 @@ def decode_CgPassTypeStatesBlendFuncSeparateDestAlpha(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7469,6 +7991,9 @@ def decode_CgPassTypeStatesBlendFuncSeparateDestRgb(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7500,6 +8025,9 @@ def decode_CgPassTypeStatesBlendFuncSeparateSrcAlpha(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7531,6 +8059,9 @@ def decode_CgPassTypeStatesBlendFuncSeparateSrcRgb(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7562,6 +8093,9 @@ def decode_CgPassTypeStatesBlendFuncSrc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7593,6 +8127,9 @@ def decode_CgPassTypeStatesColorMaterialFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7624,6 +8161,9 @@ def decode_CgPassTypeStatesColorMaterialMode(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7655,6 +8195,9 @@ def decode_CgPassTypeStatesCullFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7686,6 +8229,9 @@ def decode_CgPassTypeStatesDepthFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7717,6 +8263,9 @@ def decode_CgPassTypeStatesFogCoordSrc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7748,6 +8297,9 @@ def decode_CgPassTypeStatesFogMode(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7779,6 +8331,9 @@ def decode_CgPassTypeStatesFrontFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7810,6 +8365,9 @@ def decode_CgPassTypeStatesLightModelColorControl(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7841,6 +8399,9 @@ def decode_CgPassTypeStatesLogicOp(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7872,6 +8433,9 @@ def decode_CgPassTypeStatesPolygonModeFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7903,6 +8467,9 @@ def decode_CgPassTypeStatesPolygonModeMode(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7934,6 +8501,9 @@ def decode_CgPassTypeStatesShadeModel(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7965,6 +8535,9 @@ def decode_CgPassTypeStatesStencilFuncFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -7996,6 +8569,9 @@ def decode_CgPassTypeStatesStencilFuncSeparateBack(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8027,6 +8603,9 @@ def decode_CgPassTypeStatesStencilFuncSeparateFront(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8058,6 +8637,9 @@ def decode_CgPassTypeStatesStencilMaskSeparateFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8089,6 +8671,9 @@ def decode_CgPassTypeStatesStencilOpFail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8120,6 +8705,9 @@ def decode_CgPassTypeStatesStencilOpSeparateFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8151,6 +8739,9 @@ def decode_CgPassTypeStatesStencilOpSeparateFail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8182,6 +8773,9 @@ def decode_CgPassTypeStatesStencilOpSeparateZfail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8213,6 +8807,9 @@ def decode_CgPassTypeStatesStencilOpSeparateZpass(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8244,6 +8841,9 @@ def decode_CgPassTypeStatesStencilOpZfail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8275,6 +8875,9 @@ def decode_CgPassTypeStatesStencilOpZpass(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8306,6 +8909,9 @@ def decode_ProfileGlslTypeTechniquePassStatesAlphaFuncFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8337,6 +8943,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendEquation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8368,6 +8977,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendEquationSeparateAlpha(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8399,6 +9011,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendEquationSeparateRgb(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8430,6 +9045,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendFuncDest(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8461,6 +9079,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestAlpha(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8492,6 +9113,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestRgb(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8523,6 +9147,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcAlpha(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8554,6 +9181,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcRgb(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8585,6 +9215,9 @@ def decode_ProfileGlslTypeTechniquePassStatesBlendFuncSrc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8616,6 +9249,9 @@ def decode_ProfileGlslTypeTechniquePassStatesColorMaterialFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8647,6 +9283,9 @@ def decode_ProfileGlslTypeTechniquePassStatesColorMaterialMode(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8678,6 +9317,9 @@ def decode_ProfileGlslTypeTechniquePassStatesCullFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8709,6 +9351,9 @@ def decode_ProfileGlslTypeTechniquePassStatesDepthFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8740,6 +9385,9 @@ def decode_ProfileGlslTypeTechniquePassStatesFogCoordSrc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8771,6 +9419,9 @@ def decode_ProfileGlslTypeTechniquePassStatesFogMode(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8802,6 +9453,9 @@ def decode_ProfileGlslTypeTechniquePassStatesFrontFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8833,6 +9487,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLightModelColorControl(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8864,6 +9521,9 @@ def decode_ProfileGlslTypeTechniquePassStatesLogicOp(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8895,6 +9555,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPolygonModeFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8926,6 +9589,9 @@ def decode_ProfileGlslTypeTechniquePassStatesPolygonModeMode(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8957,6 +9623,9 @@ def decode_ProfileGlslTypeTechniquePassStatesShadeModel(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -8988,6 +9657,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilFuncFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9019,6 +9691,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilFuncSeparateBack(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9050,6 +9725,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilFuncSeparateFront(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9081,6 +9759,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilMaskSeparateFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9112,6 +9793,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilOpFail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9143,6 +9827,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilOpSeparateFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9174,6 +9861,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilOpSeparateFail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9205,6 +9895,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilOpSeparateZfail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9236,6 +9929,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilOpSeparateZpass(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9267,6 +9963,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilOpZfail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -9298,6 +9997,9 @@ def decode_ProfileGlslTypeTechniquePassStatesStencilOpZpass(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated

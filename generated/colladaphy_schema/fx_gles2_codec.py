@@ -423,6 +423,9 @@ def decode_Gles2PassTypeStatesBlendColor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -459,6 +462,9 @@ def decode_Gles2PassTypeStatesBlendEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -502,6 +508,9 @@ def decode_Gles2PassTypeStatesColorMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -538,6 +547,9 @@ def decode_Gles2PassTypeStatesCullFaceEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -569,6 +581,9 @@ def decode_Gles2PassTypeStatesDepthMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -608,6 +623,9 @@ def decode_Gles2PassTypeStatesDepthRange(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -642,6 +660,9 @@ def decode_Gles2PassTypeStatesDepthTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -673,6 +694,9 @@ def decode_Gles2PassTypeStatesDitherEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -704,6 +728,9 @@ def decode_Gles2PassTypeStatesLineWidth(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -735,6 +762,9 @@ def decode_Gles2PassTypeStatesPointSize(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -766,6 +796,9 @@ def decode_Gles2PassTypeStatesPointSizeEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -805,6 +838,9 @@ def decode_Gles2PassTypeStatesPolygonOffset(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -839,6 +875,9 @@ def decode_Gles2PassTypeStatesPolygonOffsetFillEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -870,6 +909,9 @@ def decode_Gles2PassTypeStatesSampleAlphaToCoverageEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -901,6 +943,9 @@ def decode_Gles2PassTypeStatesSampleCoverageEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -929,6 +974,9 @@ def decode_Gles2PassTypeStatesSampleCoverageInvert(e):
             v_value = boolean(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     return o
@@ -956,6 +1004,9 @@ def decode_Gles2PassTypeStatesSampleCoverageValue(e):
             v_value = number(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     return o
@@ -988,6 +1039,9 @@ def decode_Gles2PassTypeStatesScissor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1019,6 +1073,9 @@ def decode_Gles2PassTypeStatesScissorTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1050,6 +1107,9 @@ def decode_Gles2PassTypeStatesStencilFuncMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1081,6 +1141,9 @@ def decode_Gles2PassTypeStatesStencilFuncRef(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1112,6 +1175,9 @@ def decode_Gles2PassTypeStatesStencilFuncSeparateMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1143,6 +1209,9 @@ def decode_Gles2PassTypeStatesStencilFuncSeparateRef(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1174,6 +1243,9 @@ def decode_Gles2PassTypeStatesStencilMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1205,6 +1277,9 @@ def decode_Gles2PassTypeStatesStencilMaskSeparateMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1236,6 +1311,9 @@ def decode_Gles2PassTypeStatesStencilTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1298,6 +1376,9 @@ def decode_Gles2ProgramTypeBindUniformParam(e):
             v_ref = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_ref is REQUIRED:
         missing(e, "ref")
     o.ref = v_ref
@@ -1629,6 +1710,9 @@ def decode_Gles2PassTypeStatesBlendEquation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1660,6 +1744,9 @@ def decode_Gles2PassTypeStatesBlendEquationSeparateAlpha(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1691,6 +1778,9 @@ def decode_Gles2PassTypeStatesBlendEquationSeparateRgb(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1722,6 +1812,9 @@ def decode_Gles2PassTypeStatesBlendFuncDest(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1753,6 +1846,9 @@ def decode_Gles2PassTypeStatesBlendFuncSeparateDestAlpha(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1784,6 +1880,9 @@ def decode_Gles2PassTypeStatesBlendFuncSeparateDestRgb(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1815,6 +1914,9 @@ def decode_Gles2PassTypeStatesBlendFuncSeparateSrcAlpha(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1846,6 +1948,9 @@ def decode_Gles2PassTypeStatesBlendFuncSeparateSrcRgb(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1877,6 +1982,9 @@ def decode_Gles2PassTypeStatesBlendFuncSrc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1908,6 +2016,9 @@ def decode_Gles2PassTypeStatesCullFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1939,6 +2050,9 @@ def decode_Gles2PassTypeStatesDepthFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1970,6 +2084,9 @@ def decode_Gles2PassTypeStatesFrontFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2033,6 +2150,9 @@ def decode_Gles2PassTypeStatesStencilFuncFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2064,6 +2184,9 @@ def decode_Gles2PassTypeStatesStencilFuncSeparateBack(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2095,6 +2218,9 @@ def decode_Gles2PassTypeStatesStencilFuncSeparateFront(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2126,6 +2252,9 @@ def decode_Gles2PassTypeStatesStencilMaskSeparateFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2157,6 +2286,9 @@ def decode_Gles2PassTypeStatesStencilOpFail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2188,6 +2320,9 @@ def decode_Gles2PassTypeStatesStencilOpSeparateFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2219,6 +2354,9 @@ def decode_Gles2PassTypeStatesStencilOpSeparateFail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2250,6 +2388,9 @@ def decode_Gles2PassTypeStatesStencilOpSeparateZfail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2281,6 +2422,9 @@ def decode_Gles2PassTypeStatesStencilOpSeparateZpass(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2312,6 +2456,9 @@ def decode_Gles2PassTypeStatesStencilOpZfail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2343,6 +2490,9 @@ def decode_Gles2PassTypeStatesStencilOpZpass(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated

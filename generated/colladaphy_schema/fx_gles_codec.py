@@ -487,6 +487,9 @@ def decode_GlesSamplerTypeTexcoord(e):
             v_semantic = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.semantic = v_semantic
     return o
 
@@ -515,6 +518,9 @@ def decode_GlesTextureConstantType(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -546,6 +552,9 @@ def decode_ProfileGlesTypeTechniquePassStatesAlphaFuncValue(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -577,6 +586,9 @@ def decode_ProfileGlesTypeTechniquePassStatesAlphaTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -608,6 +620,9 @@ def decode_ProfileGlesTypeTechniquePassStatesBlendEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -644,6 +659,9 @@ def decode_ProfileGlesTypeTechniquePassStatesClipPlane(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -682,6 +700,9 @@ def decode_ProfileGlesTypeTechniquePassStatesClipPlaneEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.index = v_index
     o.param = v_param
     o.value = v_value
@@ -717,6 +738,9 @@ def decode_ProfileGlesTypeTechniquePassStatesColorLogicOpEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -750,6 +774,9 @@ def decode_ProfileGlesTypeTechniquePassStatesColorMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -781,6 +808,9 @@ def decode_ProfileGlesTypeTechniquePassStatesColorMaterialEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -812,6 +842,9 @@ def decode_ProfileGlesTypeTechniquePassStatesCullFaceEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -843,6 +876,9 @@ def decode_ProfileGlesTypeTechniquePassStatesDepthMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -882,6 +918,9 @@ def decode_ProfileGlesTypeTechniquePassStatesDepthRange(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -916,6 +955,9 @@ def decode_ProfileGlesTypeTechniquePassStatesDepthTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -947,6 +989,9 @@ def decode_ProfileGlesTypeTechniquePassStatesDitherEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -990,6 +1035,9 @@ def decode_ProfileGlesTypeTechniquePassStatesFogColor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1026,6 +1074,9 @@ def decode_ProfileGlesTypeTechniquePassStatesFogDensity(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1057,6 +1108,9 @@ def decode_ProfileGlesTypeTechniquePassStatesFogEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1088,6 +1142,9 @@ def decode_ProfileGlesTypeTechniquePassStatesFogEnd(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1119,6 +1176,9 @@ def decode_ProfileGlesTypeTechniquePassStatesFogStart(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1165,6 +1225,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightAmbient(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1208,6 +1271,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightConstantAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1258,6 +1324,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightDiffuse(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1301,6 +1370,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1339,6 +1411,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightLinearAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1386,6 +1461,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightModelAmbient(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1422,6 +1500,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightModelTwoSideEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1468,6 +1549,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightPosition(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1511,6 +1595,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightQuadraticAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1561,6 +1648,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightSpecular(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1604,6 +1694,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightSpotCutoff(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1652,6 +1745,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightSpotDirection(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1694,6 +1790,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightSpotExponent(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_index is REQUIRED:
         missing(e, "index")
     o.index = v_index
@@ -1729,6 +1828,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLightingEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1760,6 +1862,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLineSmoothEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1791,6 +1896,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLineWidth(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1834,6 +1942,9 @@ def decode_ProfileGlesTypeTechniquePassStatesMaterialAmbient(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1882,6 +1993,9 @@ def decode_ProfileGlesTypeTechniquePassStatesMaterialDiffuse(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1930,6 +2044,9 @@ def decode_ProfileGlesTypeTechniquePassStatesMaterialEmission(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -1966,6 +2083,9 @@ def decode_ProfileGlesTypeTechniquePassStatesMaterialShininess(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2009,6 +2129,9 @@ def decode_ProfileGlesTypeTechniquePassStatesMaterialSpecular(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2081,6 +2204,9 @@ def decode_ProfileGlesTypeTechniquePassStatesModelViewMatrix(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2129,6 +2255,9 @@ def decode_ProfileGlesTypeTechniquePassStatesMultisampleEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2160,6 +2289,9 @@ def decode_ProfileGlesTypeTechniquePassStatesNormalizeEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2201,6 +2333,9 @@ def decode_ProfileGlesTypeTechniquePassStatesPointDistanceAttenuation(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2236,6 +2371,9 @@ def decode_ProfileGlesTypeTechniquePassStatesPointFadeThresholdSize(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2267,6 +2405,9 @@ def decode_ProfileGlesTypeTechniquePassStatesPointSize(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2298,6 +2439,9 @@ def decode_ProfileGlesTypeTechniquePassStatesPointSizeMax(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2329,6 +2473,9 @@ def decode_ProfileGlesTypeTechniquePassStatesPointSizeMin(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2360,6 +2507,9 @@ def decode_ProfileGlesTypeTechniquePassStatesPointSmoothEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2399,6 +2549,9 @@ def decode_ProfileGlesTypeTechniquePassStatesPolygonOffset(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2433,6 +2586,9 @@ def decode_ProfileGlesTypeTechniquePassStatesPolygonOffsetFillEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2500,6 +2656,9 @@ def decode_ProfileGlesTypeTechniquePassStatesProjectionMatrix(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2548,6 +2707,9 @@ def decode_ProfileGlesTypeTechniquePassStatesRescaleNormalEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2579,6 +2741,9 @@ def decode_ProfileGlesTypeTechniquePassStatesSampleAlphaToCoverageEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2610,6 +2775,9 @@ def decode_ProfileGlesTypeTechniquePassStatesSampleAlphaToOneEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2641,6 +2809,9 @@ def decode_ProfileGlesTypeTechniquePassStatesSampleCoverageEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2674,6 +2845,9 @@ def decode_ProfileGlesTypeTechniquePassStatesScissor(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2705,6 +2879,9 @@ def decode_ProfileGlesTypeTechniquePassStatesScissorTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2736,6 +2913,9 @@ def decode_ProfileGlesTypeTechniquePassStatesStencilFuncMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2767,6 +2947,9 @@ def decode_ProfileGlesTypeTechniquePassStatesStencilFuncRef(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2798,6 +2981,9 @@ def decode_ProfileGlesTypeTechniquePassStatesStencilMask(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2829,6 +3015,9 @@ def decode_ProfileGlesTypeTechniquePassStatesStencilTestEnable(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -2969,6 +3158,9 @@ def decode_GlesTexcombinerArgumentAlphaType(e):
             v_sampler = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.source = v_source
     o.operand = v_operand
     o.sampler = v_sampler
@@ -3007,6 +3199,9 @@ def decode_GlesTexcombinerArgumentRgbType(e):
             v_sampler = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.source = v_source
     o.operand = v_operand
     o.sampler = v_sampler
@@ -3156,6 +3351,9 @@ def decode_ProfileGlesTypeTechniquePassStatesAlphaFuncFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3187,6 +3385,9 @@ def decode_ProfileGlesTypeTechniquePassStatesBlendFuncDest(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3218,6 +3419,9 @@ def decode_ProfileGlesTypeTechniquePassStatesBlendFuncSrc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3249,6 +3453,9 @@ def decode_ProfileGlesTypeTechniquePassStatesCullFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3280,6 +3487,9 @@ def decode_ProfileGlesTypeTechniquePassStatesDepthFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3311,6 +3521,9 @@ def decode_ProfileGlesTypeTechniquePassStatesFogMode(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3342,6 +3555,9 @@ def decode_ProfileGlesTypeTechniquePassStatesFrontFace(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3373,6 +3589,9 @@ def decode_ProfileGlesTypeTechniquePassStatesLogicOp(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3404,6 +3623,9 @@ def decode_ProfileGlesTypeTechniquePassStatesShadeModel(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3435,6 +3657,9 @@ def decode_ProfileGlesTypeTechniquePassStatesStencilFuncFunc(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3466,6 +3691,9 @@ def decode_ProfileGlesTypeTechniquePassStatesStencilOpFail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3497,6 +3725,9 @@ def decode_ProfileGlesTypeTechniquePassStatesStencilOpZfail(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated
@@ -3528,6 +3759,9 @@ def decode_ProfileGlesTypeTechniquePassStatesStencilOpZpass(e):
                 stated += ("value",)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.param = v_param
     o.value = v_value
     o._stated = stated

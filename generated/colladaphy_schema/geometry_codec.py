@@ -116,6 +116,9 @@ def decode_InstanceMaterialTypeBind(e):
             v_semantic = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_target is REQUIRED:
         missing(e, "target")
     o.target = v_target
@@ -146,6 +149,9 @@ def decode_InstanceMaterialTypeBindVertexInput(e):
             v_input_set = integer(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_input_semantic is REQUIRED:
         missing(e, "input_semantic")
     o.input_semantic = v_input_semantic

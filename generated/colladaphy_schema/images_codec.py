@@ -122,6 +122,9 @@ def decode_ImageMipsType(e):
             v_levels = integer(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_auto_generate is REQUIRED:
         missing(e, "auto_generate")
     o.auto_generate = v_auto_generate
@@ -171,6 +174,9 @@ def decode_ImageTypeCreate2DArray(e):
             v_length = integer(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_length is REQUIRED:
         missing(e, "length")
     o.length = v_length
@@ -194,6 +200,9 @@ def decode_ImageTypeCreate2DSizeExact(e):
             v_width = integer(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_height is REQUIRED:
         missing(e, "height")
     o.height = v_height
@@ -221,6 +230,9 @@ def decode_ImageTypeCreate2DSizeRatio(e):
             v_width = number(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_height is REQUIRED:
         missing(e, "height")
     o.height = v_height
@@ -245,6 +257,9 @@ def decode_ImageTypeCreate3DArray(e):
             v_length = integer(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_length is REQUIRED:
         missing(e, "length")
     o.length = v_length
@@ -271,6 +286,9 @@ def decode_ImageTypeCreate3DSize(e):
             v_width = integer(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_depth is REQUIRED:
         missing(e, "depth")
     o.depth = v_depth
@@ -299,6 +317,9 @@ def decode_ImageTypeCreateCubeArray(e):
             v_length = integer(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_length is REQUIRED:
         missing(e, "length")
     o.length = v_length
@@ -319,6 +340,9 @@ def decode_ImageTypeCreateCubeSize(e):
             v_width = integer(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_width is REQUIRED:
         missing(e, "width")
     o.width = v_width
@@ -339,6 +363,9 @@ def decode_ImageTypeRenderable(e):
             v_share = boolean(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_share is REQUIRED:
         missing(e, "share")
     o.share = v_share
@@ -403,6 +430,9 @@ def decode_ImageTypeCreate2DFormatHint(e):
             v_space = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_channels is REQUIRED:
         missing(e, "channels")
     o.channels = v_channels
@@ -448,6 +478,9 @@ def decode_ImageTypeCreate3DFormatHint(e):
             v_space = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_channels is REQUIRED:
         missing(e, "channels")
     o.channels = v_channels
@@ -493,6 +526,9 @@ def decode_ImageTypeCreateCubeFormatHint(e):
             v_space = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_channels is REQUIRED:
         missing(e, "channels")
     o.channels = v_channels
@@ -533,6 +569,9 @@ def decode_InstanceImageType(e):
             v_url = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.extra = v_extra
     o.sid = v_sid
     o.name = v_name

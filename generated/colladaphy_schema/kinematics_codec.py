@@ -124,6 +124,9 @@ def decode_KinematicsParamType(e):
             v_ref = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_ref is REQUIRED:
         missing(e, "ref")
     o.ref = v_ref

@@ -307,6 +307,9 @@ def decode_InstanceJointType(e):
             v_url = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.extra = v_extra
     o.sid = v_sid
     o.name = v_name

@@ -457,6 +457,9 @@ def decode_InstanceEffectTypeTechniqueHint(e):
             v_profile = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_ref is REQUIRED:
         missing(e, "ref")
     o.ref = v_ref

@@ -42,8 +42,8 @@ class AnyElement:
 
     `qname` and the keys of `attributes` are in Clark notation. `namespaces` holds the prefixes
     that this element has to declare beside its own: those declared on it and, for the outermost
-    element, those in scope that it uses. Text, tail and children are kept as they were written. Prefixes take no
-    part in comparison: they are spelling.
+    element, those in scope that it uses. Text, tail and children are kept as they were written.
+    Prefixes take no part in comparison: they are spelling.
     """
 
     qname: str
@@ -64,7 +64,8 @@ def read_node(element: _Element, outer: Scope | None = None, *, tail: bool = Tru
     if isinstance(element, _Comment):
         return Comment(text=element.text or "", tail=after)
     if isinstance(element, _ProcessingInstruction):
-        return ProcessingInstruction(target=element.target or "", text=element.text, tail=after)
+        target, text = element.target or "", element.text or None
+        return ProcessingInstruction(target=target, text=text, tail=after)
     if not isinstance(element.tag, str):
         reject(element, "an entity reference cannot be kept")
     scope: Scope = dict(element.nsmap)

@@ -510,6 +510,9 @@ def decode_PairType(e):
             v_dynamic_friction = number(x, e)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_first is REQUIRED:
         missing(e, "first")
     o.first = v_first

@@ -382,6 +382,9 @@ def decode_InstanceForceFieldType(e):
             v_url = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.extra = v_extra
     o.sid = v_sid
     o.name = v_name
@@ -418,6 +421,9 @@ def decode_InstancePhysicsMaterialType(e):
             v_url = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.extra = v_extra
     o.sid = v_sid
     o.name = v_name

@@ -186,6 +186,9 @@ def decode_VisualSceneTypeEvaluateSceneRenderInstanceMaterialBind(e):
             v_semantic = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_target is REQUIRED:
         missing(e, "target")
     o.target = v_target
@@ -213,6 +216,9 @@ def decode_VisualSceneTypeEvaluateSceneRenderInstanceMaterialTechniqueOverride(e
             v_pass_value = x.strip()
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     if v_ref is REQUIRED:
         missing(e, "ref")
     o.ref = v_ref
@@ -300,6 +306,9 @@ def decode_InstanceCameraType(e):
             v_url = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.extra = v_extra
     o.sid = v_sid
     o.name = v_name
@@ -400,6 +409,9 @@ def decode_InstanceLightType(e):
             v_url = collapsed(x)
         else:
             attribute(e, k)
+    if len(e):
+        for c in e:
+            unexpected(e, c)
     o.extra = v_extra
     o.sid = v_sid
     o.name = v_name

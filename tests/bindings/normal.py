@@ -1,10 +1,11 @@
 """Two independent views of a document, to hold the codecs against.
 
-`normal` is a normal form of valid XML: comments and instructions outside wildcards, white space
-between elements, prefixes, attributes of xsi and the choice between an empty element and the
-schema's default for it do not count; every simple value counts by its value, not its spelling.
-Everything else does, the presence of defaulted attributes included. Inside wildcards everything
-counts as written.
+`normal` is a normal form of valid XML. It does not count: comments and instructions outside
+wildcards; white space between elements; prefixes; attributes of the instance namespace, but for
+xsi:type where the declared type is complex (where it is simple, dataclasses hold the plain value,
+and xsi:type and what it brings are lost); the choice between an empty element and the schema's
+default for it. Every simple value counts by its value, not its spelling. Everything else counts,
+the presence of defaulted attributes included, and inside wildcards everything as written.
 
 `same` says whether our dataclasses equal those that xsdata's parser built of the same document,
 where they may differ only in what xsdata does not keep or do.
@@ -70,6 +71,8 @@ def _element(element: etree._Element, declaration: Declaration) -> Any:
         for name, text in element.items()
         if not name.startswith(XSI) or name == f"{XSI}type"
     }
+    if isinstance(declared, SimpleType):
+        kind = declared
     if isinstance(kind, SimpleType):
         return element.tag, value(_text(element) or declaration.default or "", kind)
     return element.tag, _attributes(attributes, kind), _content(element, kind, declaration.default)

@@ -84,6 +84,8 @@ def decode_function(record: Record, needs: Needs) -> list[str]:
     elif elements:
         loop, table = children(record, elements, needs)
         lines += loop
+    elif text is None:
+        lines += ["if len(e):", "    for c in e:", "        unexpected(e, c)"]
     for f in record.fields:
         if initial(f, needs) == "REQUIRED":
             lines += [f"if {local(f)} is REQUIRED:", f"    missing(e, {f.name!r})"]
