@@ -124,9 +124,14 @@ class _State:
         parts = (world.dimensions[moving], members.dimensions[finite], members.positions[finite])
         self.size = max(_largest(reach), *map(_largest, parts)) or 1.0
 
+    def offset(self, normal: Floats) -> float:
+        """Where most centres are along `normal`, that of one of the bodies."""
+        heights = np.sort(_along(self.positions, normal))
+        return float(heights[len(heights) // 2]) if len(heights) else 0.0
+
     def reasons(self, normal: Floats) -> list[tuple[str, NDArray[Any]]]:
         """What speaks against a plane: a text, and the places of the bodies that it is true of."""
-        heights = _along(self.positions - self.positions[:1], normal)
+        heights = _along(self.positions, normal) - self.offset(normal)
         weighed = np.einsum("nij,j->ni", self.inertias, normal)
         tilt = weighed - _along(weighed, normal)[:, None] * normal
         everything = np.arange(len(self.moving))
@@ -199,8 +204,7 @@ def _candidates(state: _State) -> list[Floats]:
 
 def _outlined(state: _State, normal: Floats) -> Planarity:
     """The full analysis for one normal, shapes included."""
-    offset = float(_along(state.positions[0], normal)) if len(state.moving) else 0.0
-    frame = Frame.across(normal, offset)
+    frame = Frame.across(normal, state.offset(normal))
     world = state.world
     findings: list[Finding] = []
     for text, bad in state.reasons(normal):
