@@ -94,6 +94,19 @@ def test_the_fail_level(cli: Runner, file: Path) -> None:
 
 
 @pytest.mark.parametrize("command", ["validate", "info", "convert", "repair"])
+def test_limits_can_be_set(cli: Runner, file: Path, command: str) -> None:
+    target = [file.with_name("out.dae")] if command in ("convert", "repair") else []
+    long = b"<!--" + b"x" * 11_000_000 + b"--></COLLADA>"
+    file.write_bytes(VALID.replace(b"</COLLADA>", long))
+    refused = cli(command, file, *target)
+    assert refused.code == 1
+    assert "--limit text=" in refused.out + refused.err
+    assert cli(command, file, *target, "--limit", "text=12000000").code == 0
+    for wrong in ("text", "text=x", "nothing=1", "text=0"):
+        assert cli(command, file, *target, "--limit", wrong).code == 2
+
+
+@pytest.mark.parametrize("command", ["validate", "info", "convert", "repair"])
 @pytest.mark.parametrize(
     ("content", "code", "words"),
     [

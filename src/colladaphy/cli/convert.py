@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from colladaphy.cli.console import note_changes
-from colladaphy.cli.files import convention_option, source_of, target_of
+from colladaphy.cli.files import convention_option, limits_option, source_of, target_of
 from colladaphy.cli.reporting import write_report
+
+if TYPE_CHECKING:
+    from colladaphy.source.limits import Limits
 
 __all__ = ["command"]
 
@@ -24,8 +29,14 @@ __all__ = ["command"]
     help="Who will read it: readers of COLLADA 1.5, of 1.4.1, or Bullet's converter (1.4.1).",
 )
 @convention_option
+@limits_option
 def command(
-    source: str, target: str, report_file: str | None, reader: str, convention: str
+    source: str,
+    target: str,
+    report_file: str | None,
+    reader: str,
+    convention: str,
+    limits: Limits | None,
 ) -> None:
     """Read a document of any version, mend it, and write it as valid COLLADA.
 
@@ -34,7 +45,7 @@ def command(
     """
     from colladaphy.validation.mending import mend
 
-    mended = mend(source_of(source), convention=convention)
+    mended = mend(source_of(source), convention=convention, limits=limits)
     report = mended.report
     tree = mended.tree
     if reader == "bullet":

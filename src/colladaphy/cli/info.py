@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from colladaphy.cli.console import EXIT_FINDINGS, note, say
-from colladaphy.cli.files import convention_option, format_option, source_of
+from colladaphy.cli.files import convention_option, format_option, limits_option, source_of
+
+if TYPE_CHECKING:
+    from colladaphy.source.limits import Limits
 
 __all__ = ["command"]
 
@@ -18,7 +21,8 @@ __all__ = ["command"]
 @click.argument("file", metavar="FILE")
 @format_option
 @convention_option
-def command(file: str, form: str, convention: str) -> int:
+@limits_option
+def command(file: str, form: str, convention: str, limits: Limits | None) -> int:
     """Show what a document of any version holds.
 
     Shown are the counts of the file as it stands, its physics scenes and models, and the World
@@ -27,7 +31,7 @@ def command(file: str, form: str, convention: str) -> int:
     """
     from colladaphy.validation.statistics import describe
 
-    facts = describe(source_of(file), convention=convention)
+    facts = describe(source_of(file), convention=convention, limits=limits)
     if form == "json":
         say(json.dumps(facts, indent=2))
     else:

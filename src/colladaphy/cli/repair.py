@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from colladaphy.cli.console import note, note_changes, say
-from colladaphy.cli.files import convention_option, source_of, target_of
+from colladaphy.cli.files import convention_option, limits_option, source_of, target_of
+
+if TYPE_CHECKING:
+    from colladaphy.source.limits import Limits
 
 __all__ = ["command"]
 
@@ -19,6 +24,7 @@ __all__ = ["command"]
 )
 @click.option("--diff", is_flag=True, help="Show the changes as a unified diff.")
 @convention_option
+@limits_option
 def command(
     source: str,
     target: str | None,
@@ -26,6 +32,7 @@ def command(
     codes: tuple[str, ...],
     diff: bool,
     convention: str,
+    limits: Limits | None,
 ) -> None:
     """Mend the document IN, write it to OUT, and say what was changed.
 
@@ -35,7 +42,7 @@ def command(
     from colladaphy.validation.mending import mend, unified_diff
 
     _check_codes(codes)
-    mended = mend(source_of(source), convention=convention, only=codes or None)
+    mended = mend(source_of(source), convention=convention, limits=limits, only=codes or None)
     note_changes(mended.report, None if dry_run else 3)
     if diff:
         for line in unified_diff(mended):

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from colladaphy.cli.console import EXIT_FINDINGS, EXIT_IO, say, say_findings, say_report, steps
-from colladaphy.cli.files import format_option, source_of
+from colladaphy.cli.files import format_option, limits_option, source_of
+
+if TYPE_CHECKING:
+    from colladaphy.source.limits import Limits
 
 __all__ = ["command"]
 
 
 @click.command("validate")
 @click.argument("files", nargs=-1, required=True, metavar="FILE...")
+@limits_option
 @format_option
 @click.option(
     "--fail-level",
@@ -20,7 +26,7 @@ __all__ = ["command"]
     show_default=True,
     help="The least severity of a finding for which the exit code is 1.",
 )
-def command(files: tuple[str, ...], form: str, fail_level: str) -> int:
+def command(files: tuple[str, ...], form: str, fail_level: str, limits: Limits | None) -> int:
     """Check documents (.dae, .zae) and report everything that is wrong with them.
 
     Exits with 0 when all are valid COLLADA 1.5, with 1 when there are errors, and with 2 when a
@@ -35,7 +41,7 @@ def command(files: tuple[str, ...], form: str, fail_level: str) -> int:
     unreadable = False
     for file in steps(files, "checking"):
         try:
-            report = validate(source_of(file))
+            report = validate(source_of(file), limits=limits)
         except InputError as error:
             reports.append(Report(file, list(error.findings)))
             unreadable = True

@@ -36,7 +36,7 @@ TOO_LARGE = Rule(
     "io-too-large",
     _ERROR,
     "The input is larger than the limit.",
-    "If the file is trusted, raise the limit: colladaphy.read(..., limits=Limits(bytes=...)).",
+    "If the file is trusted, raise the limit with Limits(bytes=...) or --limit bytes=N.",
 )
 ARCHIVE_BROKEN = Rule(
     "io-archive-broken",
@@ -55,7 +55,7 @@ ARCHIVE_BOMB = Rule(
     "io-archive-bomb",
     _ERROR,
     "The archive unpacks to more than the limits allow.",
-    "If the file is trusted, raise archive_ratio, archive_entries or total in Limits.",
+    "If the file is trusted, raise archive_ratio, archive_entries or total in Limits or --limit.",
 )
 ARCHIVE_ROOT = Rule(
     "io-archive-root",
@@ -135,19 +135,19 @@ TOO_DEEP = Rule(
     "xml-too-deep",
     _ERROR,
     "Elements are nested deeper than the limit.",
-    "If the file is trusted, raise the limit: colladaphy.read(..., limits=Limits(depth=...)).",
+    "If the file is trusted, raise the limit with Limits(depth=...) or --limit depth=N.",
 )
 TEXT_TOO_LONG = Rule(
     "xml-text-too-long",
     _ERROR,
     "A text, a name or an attribute is longer than the limit.",
-    "If the file is trusted, raise the limit: colladaphy.read(..., limits=Limits(text=...)).",
+    "If the file is trusted, raise the limit with Limits(text=...) or --limit text=N.",
 )
 TOO_MANY_ELEMENTS = Rule(
     "xml-too-many-elements",
     _ERROR,
     "The document has more elements than the limit.",
-    "If the file is trusted, raise the limit: colladaphy.read(..., limits=Limits(elements=...)).",
+    "If the file is trusted, raise the limit with Limits(elements=...) or --limit elements=N.",
 )
 WRONG_ROOT = Rule(
     "xml-wrong-root",
