@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.engines.outlines import Outline, OutlineError, outline
+from colladaphy.engines.outlines import HalfPlane, Outline, outlines
 from colladaphy.engines.rules import MASS, MOVING_PLANE, NOT_PLANAR
 from colladaphy.findings import Finding, Rule
 from colladaphy.world import Body, Kind, rotations
@@ -17,7 +16,7 @@ from colladaphy.world import Body, Kind, rotations
 if TYPE_CHECKING:
     from colladaphy.world import World
 
-__all__ = ["TOLERANCE", "Frame", "Planarity", "analyse", "leaves"]
+__all__ = ["TOLERANCE", "Frame", "Planarity", "analyse"]
 
 Floats = NDArray[np.float64]
 
@@ -76,15 +75,6 @@ class Planarity:
     """Outlines of the shapes of each top-level body, by its system id, in the plane."""
     size: float
     """Largest distance of a moving body from the first, or dimension of one."""
-
-
-def leaves(body: Body) -> Iterable[Body]:
-    """The primitives and meshes that a body is made of, in order."""
-    if body.kind is Kind.UNION:
-        for member in body.members:
-            yield from leaves(member)
-    else:
-        yield body
 
 
 def analyse(world: World) -> Planarity:
@@ -209,25 +199,23 @@ def _outlined(state: _State, normal: Floats) -> Planarity:
     findings: list[Finding] = []
     for text, bad in state.reasons(normal):
         findings += _named(NOT_PLANAR, text, [world.body(int(state.sids[i])) for i in bad])
-    outlines: dict[int, list[Outline]] = {}
+    found: dict[int, list[Outline]] = {sid: [] for sid in world.sids.tolist()}
     reasons: dict[str, list[Body]] = {}
     moves = set(state.sids.tolist())
-    for body in world.bodies:
-        shapes = outlines[body.sid] = []
-        for leaf in leaves(body):
-            if leaf.kind is Kind.PLANE and body.sid in moves:
-                findings += _named(MOVING_PLANE, "A plane cannot move", [leaf])
-            try:
-                shapes.append(outline(leaf, frame, TOLERANCE, state.size))
-            except OutlineError as error:
-                reasons.setdefault(str(error), []).append(leaf)
+    for root, sid, shape in outlines(world, frame, TOLERANCE, state.size):
+        if isinstance(shape, str):
+            reasons.setdefault(shape, []).append(world.body(sid))
+            continue
+        if isinstance(shape, HalfPlane) and root in moves:
+            findings += _named(MOVING_PLANE, "A plane cannot move", [world.body(sid)])
+        found[root].append(shape)
     for text, bodies in reasons.items():
         findings += _named(NOT_PLANAR, text, bodies)
     spin = np.einsum("nij,i,j->n", state.inertias, normal, normal)
     light = np.flatnonzero(~((world.masses[state.moving] > 0) & (spin > 0)))
     bodies = [world.body(int(state.sids[i])) for i in light]
     findings += _named(MASS, "Mass or inertia is not positive", bodies)
-    return Planarity(frame, findings, outlines, state.size)
+    return Planarity(frame, findings, found, state.size)
 
 
 def _named(rule: Rule, text: str, bodies: list[Body]) -> list[Finding]:
