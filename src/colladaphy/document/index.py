@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 from lxml import etree
 
-from colladaphy.document.names import c
+from colladaphy.document.names import c, local_name
 
 __all__ = ["Index"]
 
@@ -24,7 +24,7 @@ class Index:
     def __init__(self, tree: etree._ElementTree) -> None:
         self._tree = tree
         self._ids: dict[str, etree._Element] | None = None
-        self._repeated: dict[str, int] = {}
+        self._shallow: dict[str, etree._Element] | None = None
         self._scopes: dict[etree._Element, dict[str, etree._Element]] = {}
         self._instances: list[etree._Element] | None = None
 
@@ -34,17 +34,29 @@ class Index:
         if self._ids is None:
             ids: dict[str, etree._Element] = {}
             for element in _elements(self._tree.xpath("//*[@id]")):
-                name = element.get("id", "")
-                if name in ids:
-                    self._repeated[name] = self._repeated.get(name, 1) + 1
-                else:
-                    ids[name] = element
+                ids.setdefault(element.get("id", ""), element)
             self._ids = ids
         return self._ids
 
-    def count(self, name: str) -> int:
-        """How many elements have this id (more than one only in an invalid document)."""
-        return self._repeated.get(name, 1) if name in self.ids else 0
+    def find(self, name: str) -> etree._Element | None:
+        """The element of an id.
+
+        What references mostly lead to stands directly in a library, so that is looked at first
+        (thesis 5.5), and all ids are collected only when that is not enough.
+        """
+        if self._ids is None:
+            if self._shallow is None:
+                self._shallow = {
+                    element.get("id", ""): element
+                    for library in self._tree.getroot()
+                    if local_name(library.tag).startswith("library_")
+                    for element in library.iterchildren("{*}*")
+                }
+                self._shallow.pop("", None)
+            found = self._shallow.get(name)
+            if found is not None:
+                return found
+        return self.ids.get(name)
 
     def within(self, scope: etree._Element, sid: str) -> etree._Element | None:
         """The element of a sid below `scope`: the nearest first, breadth before depth."""

@@ -28,7 +28,7 @@ from colladaphy.errors import DocumentError
 if TYPE_CHECKING:
     from colladaphy.document.document import Document
 
-__all__ = ["Placement", "own_transform", "pose_of_steps"]
+__all__ = ["Placement", "floats_of", "own_transform", "pose_of_steps", "text_of"]
 
 Transform = Pose | Matrix
 
@@ -39,7 +39,12 @@ _ROTATE = c("rotate")
 
 def floats_of(element: etree._Element) -> list[float]:
     """The numbers of an element's text; XML's INF and NaN are Python's too."""
-    return [float(word) for word in (element.text or "").split()]
+    return [float(word) for word in text_of(element).split()]
+
+
+def text_of(element: etree._Element) -> str:
+    """The text of an element, with comments in it passed over."""
+    return element.text or "" if not len(element) else str(element.xpath("string()"))
 
 
 def pose_of_steps(steps: Iterable[etree._Element]) -> Pose:

@@ -92,12 +92,7 @@ def _start(document: Document, head: str, origin: etree._Element | None) -> etre
         return None if origin is None else origin.getparent()
     if not head:
         return document.tree.getroot() if origin is None else None
-    found = document.index.ids.get(head)
-    if found is not None and origin is not None and document.index.count(head) > 1:
-        document.note(
-            rules.AMBIGUOUS, origin, f"The id {head!r} is not unique; the first is taken."
-        )
-    return found
+    return document.index.find(head)
 
 
 def _from_nearest_scope(

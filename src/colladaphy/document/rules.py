@@ -23,13 +23,6 @@ WRONG_TYPE = Rule(
     "Refer to an element of the type that is expected here.",
     "COLLADA 1.5 §Address syntax",
 )
-AMBIGUOUS = Rule(
-    "link-ambiguous",
-    _WARNING,
-    "A reference fits several elements; the first one is taken.",
-    "Make ids unique in the document, and sids unique within their parent.",
-    "COLLADA 1.5 §Address syntax",
-)
 CYCLE = Rule(
     "link-cycle",
     _ERROR,
@@ -67,7 +60,6 @@ UNKNOWN_SCENE = Rule(
 RULES = (
     MISSING,
     WRONG_TYPE,
-    AMBIGUOUS,
     CYCLE,
     BUDGET,
     SEVERAL_PLACES,

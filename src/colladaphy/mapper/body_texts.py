@@ -202,9 +202,12 @@ def rotation_texts(orientations: Array) -> list[str]:
 
 def _unless_zero(name: str, rows: Array) -> list[str]:
     """An element for each row; nothing where all its numbers are (positive) zeros."""
-    texts = [f"<{name}>{text}</{name}>" for text in row_texts(rows)]
-    for row in np.flatnonzero(np.all(same_bits(rows, np.zeros(rows.shape)), axis=1)).tolist():
-        texts[row] = ""
+    texts = [""] * len(rows)
+    some = np.flatnonzero(_some(rows))
+    if len(some) == len(rows):
+        return [f"<{name}>{text}</{name}>" for text in row_texts(rows)]
+    for row, text in zip(some.tolist(), row_texts(rows[some]), strict=True):
+        texts[row] = f"<{name}>{text}</{name}>"
     return texts
 
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from colladaphy.document import Document
     from colladaphy.world import World
 
-__all__ = ["assign_ids", "create_bodies", "free_ids", "parts_of"]
+__all__ = ["create_bodies", "free_ids", "parts_of"]
 
 
 def parts_of(part: Part) -> Iterator[Part]:
@@ -56,13 +56,6 @@ def free_ids(wanted: Sequence[int | None], taken: Iterable[int]) -> list[int]:
             sid = last
         made.append(sid)
     return made
-
-
-def assign_ids(plans: Sequence[Plan]) -> None:
-    """Give every part of the plans its system id."""
-    parts = [part for plan in plans for part in parts_of(plan.part)]
-    for part, sid in zip(parts, free_ids([part.sid for part in parts], ()), strict=True):
-        part.sid = sid
 
 
 def create_bodies(world: World, plans: Sequence[Plan], document: Document) -> list[Plan]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from lxml import etree
@@ -16,9 +16,10 @@ from colladaphy.document.references import split_reference
 from colladaphy.errors import DocumentError
 from colladaphy.findings import Severity
 from colladaphy.mapper import rules
+from colladaphy.mapper.batches import Batch, RegularBodies, assign_ids
 from colladaphy.mapper.bodies import BodyInstance, BodyReader
 from colladaphy.mapper.constraints import Attached, ConstraintReader
-from colladaphy.mapper.creation import assign_ids, create_bodies, free_ids
+from colladaphy.mapper.creation import create_bodies, free_ids
 from colladaphy.mapper.geometries import Geometries
 from colladaphy.mapper.instances import Expansion, ModelInstance
 from colladaphy.mapper.materials import MaterialTable
@@ -43,18 +44,20 @@ def load(
     prefer: Prefer = "newer",
     si: bool = False,
     up_axis: str | None = None,
+    columns: bool = True,
 ) -> World:
     """Load scenes (those in effect, unless chosen) or single models into a World.
 
     See Document.load. A `world` that is given keeps its gravity, unit and axes; what is loaded is
-    converted to them, and keeps its system ids where they are free, its order always.
+    converted to them, and keeps its system ids where they are free, its order always. Without
+    `columns` every body takes the slower path, which gives the same World.
     """
     from colladaphy.mapper.conversion import conversion, convert
     from colladaphy.mapper.joining import join
 
     before = len(document.report)
     with paused_collector():
-        loader = _Loader(document, prefer)
+        loader = _Loader(document, prefer, columns=columns)
         fresh = loader.load(scenes, models)
         change = conversion(document, world, si=si, up_axis=up_axis)
         if change is not None:
@@ -75,7 +78,7 @@ def load(
 
 
 class _Loader:
-    def __init__(self, document: Document, prefer: Prefer) -> None:
+    def __init__(self, document: Document, prefer: Prefer, *, columns: bool) -> None:
         from colladaphy.world import World
 
         self._document = document
@@ -85,8 +88,10 @@ class _Loader:
         self._geometries = Geometries(document, self._world)
         self._materials = MaterialTable(document, self._world, prefer)
         self._bodies = BodyReader(document, self._world, self._geometries, self._materials, prefer)
+        self._regular = RegularBodies(self._materials, prefer) if columns else None
         self._plans: dict[tuple[ModelInstance, etree._Element], list[Plan]] = {}
         self._by_body: dict[etree._Element, list[Plan]] = {}
+        self._refused: set[int] = set()
 
     def load(self, scenes: Sequence[Scene] | None, models: Sequence[Model] | None) -> World:
         document = self._document
@@ -102,11 +107,12 @@ class _Loader:
             ]
         apply_scenes(self._world, chosen, document, self._prefer)
         roots = self._expansion.expand(elements)
-        plans = [plan for root in roots for model in root.walk() for plan in self._model(model)]
-        _log.info("read %d bodies of %d models", len(plans), len(roots))
-        assign_ids(plans)
-        created = {id(plan) for plan in create_bodies(self._world, plans, document)}
-        self._constrain(roots, created)
+        everything = [model for root in roots for model in root.walk()]
+        batches = [self._model(model) for model in everything]
+        _log.info("read %d bodies of %d models", sum(map(len, batches)), len(roots))
+        assign_ids(batches)
+        self._create(batches)
+        self._constrain(everything, batches)
         if self._prefer != "common":
             apply_pairs(self._world, chosen, self._materials)
         restore_counters(self._world, chosen, self._prefer)
@@ -114,64 +120,97 @@ class _Loader:
 
     # --- bodies
 
-    def _model(self, model: ModelInstance) -> Iterable[Plan]:
-        for element in model.element.iterchildren(c("instance_rigid_body")):
+    def _model(self, model: ModelInstance) -> Batch:
+        """The bodies of a model instance: regular ones as columns, the others as plans."""
+        batch = Batch(model)
+        if self._regular is not None and not model.parents:
+            others = self._regular.read(batch)
+        else:
+            others = list(enumerate(model.element.iterchildren(c("instance_rigid_body"))))
+        for place, element in others:
             plan = self._body(model, element)
             if plan is not None:
-                yield plan
+                batch.plans.append((place, plan))
+        return batch
+
+    def _create(self, batches: Sequence[Batch]) -> None:
+        """Create all bodies, and forget the plans that the World refused."""
+        for batch in batches:
+            if not batch.extend(self._world):
+                # Something in the columns cannot be: one by one it shows what.
+                rows = batch.rows
+                for place, sid, element in zip(
+                    rows.places, batch.sids.tolist(), rows.elements, strict=True
+                ):
+                    plan = self._body(batch.model, element)
+                    if plan is not None:
+                        plan.part.sid = sid
+                        batch.plans.append((place, plan))
+                batch.clear()
+        plans = [plan for batch in batches for _, plan in batch.plans]
+        created = {id(plan) for plan in create_bodies(self._world, plans, self._document)}
+        self._refused = {id(plan) for plan in plans} - created
 
     def _body(self, model: ModelInstance, element: etree._Element) -> Plan | None:
-        sid = element.get("body", "")
-        body = self._expansion.rigid_body(model, sid)
-        home = model.model_document
         try:
-            if body is None:
-                target = model.model_document.index.within(model.model, sid)
-                if target is None or target.tag != c("rigid_body"):
-                    message = f"The model {model.model.get('id')!r} has no rigid body {sid!r}."
-                    raise DocumentError(
-                        link_rules.MISSING.at(element, message, file=model.document.file)
-                    )
-                body = target
+            body = self._rigid_body(model, element)
             pose = self._expansion.node_pose(model, element)
         except DocumentError as error:
             self._document.report.extend(error.findings)
             return None
-        instance = BodyInstance(element, model.document, body, home, pose)
+        instance = BodyInstance(element, model.document, body, model.model_document, pose)
         plan = self._bodies.read(instance)
         if plan is not None:
-            self._plans.setdefault((model, body), []).append(plan)
-            self._by_body.setdefault(body, []).append(plan)
+            self._remember(model, body, plan)
         return plan
+
+    def _rigid_body(self, model: ModelInstance, element: etree._Element) -> etree._Element:
+        sid = element.get("body", "")
+        body = self._expansion.rigid_body(model, sid)
+        if body is None:
+            body = model.model_document.index.within(model.model, sid)
+        if body is None or body.tag != c("rigid_body"):
+            message = f"The model {model.model.get('id')!r} has no rigid body {sid!r}."
+            raise DocumentError(link_rules.MISSING.at(element, message, file=model.document.file))
+        return body
+
+    def _remember(self, model: ModelInstance, body: etree._Element, plan: Plan) -> None:
+        self._plans.setdefault((model, body), []).append(plan)
+        self._by_body.setdefault(body, []).append(plan)
 
     # --- constraints
 
-    def _constrain(self, roots: Sequence[ModelInstance], created: set[int]) -> None:
+    def _constrain(self, models: Sequence[ModelInstance], batches: Sequence[Batch]) -> None:
         reader = ConstraintReader(self._document, self._prefer)
+        wanted = [
+            (model, instance)
+            for model in models
+            for instance in model.element.iterchildren(c("instance_rigid_constraint"))
+        ]
+        if not wanted:
+            return
+        for batch in batches:
+            for body, plan in batch.stand_ins():
+                self._remember(batch.model, body, plan)
         found = []
-        for root in roots:
-            for model in root.walk():
-                for instance in model.element.iterchildren(c("instance_rigid_constraint")):
-                    element = self._expansion.constraint(model, instance.get("constraint", ""))
-                    if element is None:
-                        message = (
-                            f"The model {model.model.get('id')!r} has no rigid constraint "
-                            f"{instance.get('constraint')!r}."
-                        )
-                        self._document.note(
-                            link_rules.MISSING, instance, message, file=model.document.file
-                        )
-                        continue
-                    attached = self._attachments(model, element, created)
-                    if attached is not None:
-                        found.append(reader.read(element, model.model_document, attached))
-        for joint, sid in zip(found, free_ids([joint.sid for joint in found], ()), strict=True):
-            joint.sid = sid
+        for model, instance in wanted:
+            sid = instance.get("constraint", "")
+            element = self._expansion.constraint(model, sid)
+            if element is None:
+                message = f"The model {model.model.get('id')!r} has no rigid constraint {sid!r}."
+                self._document.note(link_rules.MISSING, instance, message, file=model.document.file)
+                continue
+            attached = self._attachments(model, element)
+            if attached is not None:
+                found.append(reader.read(element, model.model_document, attached))
+        ids = free_ids([joint.sid for joint in found], ())
+        for joint, id in zip(found, ids, strict=True):
+            joint.sid = id
         for joint in sorted(found, key=lambda joint: joint.sid or 0):
             reader.create(self._world, joint)
 
     def _attachments(
-        self, model: ModelInstance, element: etree._Element, created: set[int]
+        self, model: ModelInstance, element: etree._Element
     ) -> tuple[Attached, Attached] | None:
         ends: list[Attached] = []
         for name in ("ref_attachment", "attachment"):
@@ -185,7 +224,7 @@ class _Loader:
             except DocumentError as error:
                 self._document.report.extend(error.findings)
                 return None
-            if end is None or (end[0] is not None and id(end[0]) not in created):
+            if end is None or id(end[0]) in self._refused:
                 message = f"The body {reference!r} was not loaded; the constraint is skipped."
                 self._document.note(
                     rules.CONSTRAINT_SKIPPED, element, message, file=model.model_document.file

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from lxml import etree
 
 from colladaphy.document.names import PE, c, local_name, p
+from colladaphy.document.nodes import floats_of, pose_of_steps, text_of
 from colladaphy.document.poses import Pose, Quaternion, Vector, unit_quaternion
 
 __all__ = ["ProfileBody", "ProfilePart", "pe_child", "read_profile_body", "techniques"]
@@ -99,7 +100,7 @@ def read_profile_body(rigid_body: etree._Element) -> ProfileBody | None:
 
 def numbers(element: etree._Element) -> tuple[float, ...]:
     """The numbers of an element's text."""
-    return tuple(float(word) for word in (element.text or "").split())
+    return tuple(floats_of(element))
 
 
 def vector(element: etree._Element) -> Vector:
@@ -116,7 +117,7 @@ def quaternion(element: etree._Element) -> Quaternion:
 
 def boolean(element: etree._Element) -> bool:
     """xs:boolean; an element without text is true, the default of COLLADA's."""
-    return (element.text or "true").strip() in ("true", "1")
+    return (text_of(element).strip() or "true") in ("true", "1")
 
 
 def _integer(element: etree._Element, name: str) -> int | None:
@@ -259,8 +260,6 @@ def _thesis_uid(parent: etree._Element) -> int | None:
 def _thesis_part(element: etree._Element) -> ProfilePart:
     part = ProfilePart(uid=_thesis_uid(element), name=element.get("name"))
     if local_name(element.tag) == "union":
-        from colladaphy.document.nodes import pose_of_steps
-
         part.members = [
             _thesis_part(child) for child in element if _is_thesis(child, _THESIS_PARTS)
         ]
