@@ -151,7 +151,7 @@ class Nodes:
     def _rewrite(self, node: etree._Element, pose: Matrix, whole: Matrix) -> None:
         parent = node.getparent()
         at_top = parent is not None and local(parent) == "visual_scene"
-        if at_top and steps_are_plain(node) and np.array_equal(pose, whole):
+        if at_top and steps_are_plain(node) and np.array_equal(pose, transform_of(node)):
             return
         if node.get("id") in self._animated:
             message = f"The node {node.get('id')!r} is animated."
