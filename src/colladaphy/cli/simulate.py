@@ -124,11 +124,11 @@ def command(
         progress = _Progress(goal, before)
         summary = simulation.run(
             max(0, goal - before),
-            observers=[recorder] if recorder else [],
+            observers=[] if recorder is None else [recorder],
             every=trajectory_every,
             checkpoints=checkpoints,
             checkpoint_every=interval or 0,
-            before_checkpoint=recorder.save_again if recorder else None,
+            before_checkpoint=None if recorder is None else recorder.save_again,
             stop=lambda: bool(interrupted),
             progress=progress,
         )
@@ -171,7 +171,7 @@ def _series(
     if there and not resume:  # needed only if this run is interrupted
         free = (Checkpoints(f"{folder}-{number}", keep=keep) for number in count(2))
         checkpoints = next(series for series in free if not series.paths())
-    if begin:
+    if begin and not resume:
         checkpoints.begin()
     return checkpoints
 
