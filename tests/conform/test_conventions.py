@@ -150,8 +150,11 @@ def test_bullet_leaves_the_shapes_of_what_it_only_edits() -> None:
         '</physics_model><physics_model id="Bullet-PhysicsModel"><rigid_body sid="x">'
         f"<technique_common>{shapes}</technique_common></rigid_body>"
     )
-    root, _ = mended(physics(shapes, more=extra))
+    tool = asset("ColladaMaya v0.89", '<unit meter="0.01"/>')
+    root, findings = mended(physics(shapes, more=extra, asset=tool))
     assert [e.text for e in root.iter(C + "equation")] == ["0 0 1 6", "0 0 1 -6"]
+    assert words(root, "gravity") == ["0", "0", "-981"]
+    assert [f.code for f in findings].count("convention-chosen") == 2
 
 
 def test_axes_with_min_above_max_are_free_whoever_wrote_them() -> None:

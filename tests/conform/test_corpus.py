@@ -10,7 +10,7 @@ import pytest
 from lxml import etree
 
 from colladaphy.conform import conform
-from colladaphy.conform.identifiers import standard_elements
+from colladaphy.conform.context import standard_elements
 from colladaphy.schema import gate
 
 CORPUS = Path(__file__).resolve().parents[3] / "shared" / "corpus"

@@ -195,3 +195,13 @@ def test_a_geometry_without_content_stays_referable() -> None:
     root, findings = mended(document('<library_geometries><geometry id="g"/></library_geometries>'))
     assert names(root, "geometry") == ["convex_mesh"]
     assert codes(findings) == {"repair-empty-geometry"}
+
+
+def test_a_body_whose_only_shape_cannot_be_read_stays_a_body() -> None:
+    root, findings = mended(physics(shape("<sphere><radius>big</radius></sphere>")))
+    assert [body.get("sid") for body in root.iterfind(f".//{C}physics_model/{C}rigid_body")] == [
+        "b1"
+    ]
+    assert "big" in kept(root)
+    assert "assumed" in kept(root)
+    assert codes(findings) >= {"repair-unreadable-value", "repair-missing-element"}

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from lxml import etree
 
+from colladaphy.conform.bodies import assumed_shape
 from colladaphy.conform.context import NS, Context, local
-from colladaphy.conform.grammar import Declaration, Group, SimpleType
+from colladaphy.conform.grammar import ComplexType, Declaration, Group, SimpleType
 
 __all__ = ["assumed_attribute", "assumed_element"]
 
@@ -32,7 +33,14 @@ def assumed_element(
         asset.extend([context.make("created", _EPOCH), context.make("modified", _EPOCH)])
         return asset, f"nothing says who or when; {_EPOCH} is assumed"
     if name == "color":
-        return context.make("color", "0 0 0"), "black"
+        kind = declaration.type.value if isinstance(declaration.type, ComplexType) else None
+        count = 3 if kind is None or kind.length is None else kind.length[0]
+        return context.make("color", " ".join("0001"[:count])), "black"
+    if name == "shape":
+        why = (
+            "nothing says what shape the body has; a sphere of radius 0, marked as assumed, stands"
+        )
+        return assumed_shape(context), why
     if name in ("translate", "rotate", "channel", "sampler", "link"):
         return None
     return _empty(context, declaration)
@@ -82,6 +90,8 @@ def assumed_attribute(
         return _free_sid(element), "any free sid does"
     if name == "count":
         return _count(element)
+    if name == "source" and kind == "accessor":
+        return _array_of(context, element)
     if name == "profile" and kind == "technique":
         return "unknown", "the technique names no profile"
     if name == "texcoord":
@@ -101,6 +111,20 @@ def assumed_attribute(
         return str(sum(1 for _ in element.itersiblings(element.tag, preceding=True))), "its order"
     if name == "stage":
         return None
+    return None
+
+
+def _array_of(context: Context, accessor: etree._Element) -> tuple[str, str] | None:
+    """The array beside an accessor, which gets an id where it has none."""
+    common = accessor.getparent()
+    source = None if common is None else common.getparent()
+    if source is None:
+        return None
+    for array in source:
+        if local(array) in _LIST_ELEMENTS:
+            if not array.get("id"):
+                array.set("id", context.new_id(f"{source.get('id', 'source')}-array"))
+            return f"#{array.get('id')}", "the array beside it"
     return None
 
 

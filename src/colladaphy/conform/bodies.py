@@ -13,6 +13,7 @@ from colladaphy.conform.shapes import GEOMETRIES, TAPERED
 from colladaphy.conform.solids import numbers_of
 
 __all__ = [
+    "assumed_shape",
     "body_targets",
     "complete_constraints",
     "diagonalise_inertia",
@@ -205,14 +206,14 @@ def give_shapes(context: Context) -> None:
                 remove(shape)
         if found and node is not None:
             for url, matrix in found:
-                append(common, _assumed(context, url, matrix))
+                append(common, assumed_shape(context, url, matrix))
             urls = ", ".join(url for url, _ in found)
             message = (
                 f"rigid_body {body.get('sid')!r} had no shape; the geometry of its node "
                 f"#{node.get('id')} is assumed to be its shape: {urls}"
             )
         else:
-            append(common, _assumed(context, None, np.eye(4)))
+            append(common, assumed_shape(context))
             message = (
                 f"rigid_body {body.get('sid')!r} had no shape and its node shows no geometry; "
                 "a sphere of radius 0, marked as assumed, stands for it"
@@ -224,7 +225,10 @@ def _has_geometry(shape: etree._Element) -> bool:
     return any(local(child) in (*GEOMETRIES, *TAPERED) for child in shape)
 
 
-def _assumed(context: Context, url: str | None, matrix: np.ndarray) -> etree._Element:
+def assumed_shape(
+    context: Context, url: str | None = None, matrix: np.ndarray | None = None
+) -> etree._Element:
+    """A shape marked as assumed: the geometry of this url at this place, or one without extent."""
     shape = context.make("shape")
     if url is None:
         sphere = context.make("sphere")
@@ -232,7 +236,7 @@ def _assumed(context: Context, url: str | None, matrix: np.ndarray) -> etree._El
         shape.append(sphere)
     else:
         shape.append(context.make("instance_geometry", url=url))
-        shape.extend(place_elements(context, matrix))
+        shape.extend(place_elements(context, np.eye(4) if matrix is None else matrix))
     extra, technique = context.make("extra"), context.make("technique", profile="colladaphy")
     assumed = etree.SubElement(technique, f"{{{CONFORM}}}assumed", nsmap=OWN_MAP)
     assumed.set("from", "nothing" if url is None else "visual")

@@ -13,7 +13,7 @@ from lxml import etree
 from colladaphy.conform.grammar import NAMESPACE, ComplexType, root_declaration, stated_type
 from colladaphy.findings import Finding, Rule
 
-__all__ = ["CONFORM", "NS", "Context", "local"]
+__all__ = ["CONFORM", "NS", "OWN_MAP", "Context", "local", "standard_elements"]
 
 NS = "{" + NAMESPACE + "}"
 CONFORM = "urn:colladaphy:conform:1"
@@ -116,9 +116,8 @@ class Context:
         """The first element of every id; made anew after `forget_ids`."""
         if self._ids is None:
             self._ids = {}
-            for element in self.root.iter(etree.Element):
-                name = element.get("id")
-                if name is not None:
+            for element in standard_elements(self.root):
+                if name := element.get("id"):
                     self._ids.setdefault(name, element)
         return self._ids
 
@@ -207,6 +206,17 @@ class Context:
     def _may_have_extra(self, element: etree._Element) -> bool:
         kind = type_of(element)
         return kind is not None and "extra" in kind.children
+
+
+def standard_elements(root: etree._Element) -> Iterator[etree._Element]:
+    """Every element but those inside the free content of techniques."""
+    stack = [root]
+    while stack:
+        element = stack.pop()
+        yield element
+        if local(element) == "technique" and element.get("profile") is not None:
+            continue
+        stack.extend(reversed(list(element.iterchildren(tag=etree.Element))))
 
 
 def _labels(parent: etree._Element) -> dict[etree._Element, str]:

@@ -68,6 +68,12 @@ class Declaration:
     default: str | None
     low: int
     high: int
+    namespace: str = NAMESPACE
+
+    @property
+    def tag(self) -> str:
+        """The tag of such an element, as lxml has it."""
+        return f"{{{self.namespace}}}{self.name}"
 
 
 @dataclass(slots=True)
@@ -304,7 +310,9 @@ class _Reader:
             kind = ComplexType(name, anything=True)
         else:
             kind = self.type_named(node.get("type", "xs:string"))
-        return Declaration(name, kind, node.get("default"), low, high)
+        prefix, _, _ = node.get("ref", "").rpartition(":")
+        namespace = node.nsmap[prefix] if prefix else NAMESPACE
+        return Declaration(name, kind, node.get("default"), low, high, namespace)
 
 
 @cache

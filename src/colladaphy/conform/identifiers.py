@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
 
 from lxml import etree
 
 from colladaphy.conform import rules
-from colladaphy.conform.context import NS, Context, local
+from colladaphy.conform.context import NS, Context, local, standard_elements
 from colladaphy.conform.lexical import name_from
 
 __all__ = ["mend_ids", "mend_sids"]
@@ -18,19 +17,9 @@ _NCNAME = re.compile(r"[^\W\d][\w.\-]*")
 _URLS = ("url", "source", "target", "parent", "convex_hull_of", "proxy", "camera_node")
 _PATHS = ("target", "rigid_body", "axis", "joint", "link", "node", "ref", "body", "constraint")
 _BARE = ("url", "source", "parent", "convex_hull_of", "proxy", "camera_node")
+_SOURCES = ("input", "accessor", "skin", "morph", "channel")
 _TEXTS = ("skeleton", "SIDREF", "param")
 _LISTS = ("IDREF_array", "SIDREF_array")
-
-
-def standard_elements(root: etree._Element) -> Iterator[etree._Element]:
-    """Every element but those inside the free content of techniques."""
-    stack = [root]
-    while stack:
-        element = stack.pop()
-        yield element
-        if local(element) == "technique" and element.get("profile") is not None:
-            continue
-        stack.extend(reversed(list(element.iterchildren(tag=etree.Element))))
 
 
 def mend_ids(context: Context) -> None:
@@ -112,7 +101,7 @@ def _rewrite(root: etree._Element, changed: dict[str, _Scope]) -> None:
     for element in standard_elements(root):
         for key, value in list(element.attrib.items()):
             if key in _URLS or key in _PATHS:
-                new = _reference(element, str(value), changed, bare=key in _BARE)
+                new = _reference(element, str(value), changed, bare=_may_be_bare(element, str(key)))
                 if new is not None:
                     element.set(key, new)
         name = local(element)
@@ -126,6 +115,11 @@ def _rewrite(root: etree._Element, changed: dict[str, _Scope]) -> None:
             new_parts = [_reference(element, p, changed, bare=True) or p for p in parts]
             if parts != new_parts:
                 element.text = " ".join(new_parts)
+
+
+def _may_be_bare(element: etree._Element, key: str) -> bool:
+    """Whether an attribute is a url that may have lost its '#'; some sources are sids."""
+    return key in _BARE and (key != "source" or local(element) in _SOURCES)
 
 
 def _in_surface(element: etree._Element) -> bool:

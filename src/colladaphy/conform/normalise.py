@@ -55,7 +55,7 @@ class _Normaliser:
             if isinstance(kind, ComplexType):
                 for child in element.iterchildren(tag=etree.Element):
                     known = kind.children.get(local(child))
-                    if known is not None and child.tag == NS + known.name:
+                    if known is not None and child.tag == known.tag:
                         order.append((child, known))
         for element, declaration in reversed(order):
             if isinstance(declaration.type, SimpleType):
@@ -76,6 +76,8 @@ class _Normaliser:
     ) -> None:
         self._attributes(element, kind)
         if kind.anything:
+            if kind.name == "technique_type":
+                self._stray_text(element)
             return
         if kind.value is not None:
             self._only_text(element)
@@ -208,7 +210,8 @@ class _Normaliser:
     def _content(self, element: etree._Element, kind: ComplexType) -> None:
         kids = list(element.iterchildren(tag=etree.Element))
         for child in kids:
-            if local(child) not in kind.children or child.tag != NS + local(child):
+            known = kind.children.get(local(child))
+            if known is None or child.tag != known.tag:
                 self._unexpected(child, element)
             elif child in self.hopeless:
                 self._hopeless(child, element)

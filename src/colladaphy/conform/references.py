@@ -9,11 +9,12 @@ from lxml import etree
 from colladaphy.conform import rules
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.lexical import name_from
+from colladaphy.conform.structure import typed_elements
 
 __all__ = ["complete_instances", "mend_attachments", "mend_instances", "mend_urls"]
 
 _NCNAME = re.compile(r"[^\W\d][\w.\-]*")
-_URLS = {"url": None, "convex_hull_of": None, "parent": None, "source": None, "target": None}
+_URLS = ("url", "convex_hull_of", "parent", "source", "target")
 
 
 class _Members:
@@ -66,10 +67,11 @@ class _Index:
 
 def mend_urls(context: Context) -> None:
     """References within the document begin with '#'; a scene that is not there is the only one."""
-    for element in context.root.iter(etree.Element):
-        for key in element.attrib:
-            if key in _URLS:
-                _hash(context, element, str(key))
+    for element, kind in typed_elements(context.root):
+        for key in _URLS:
+            known = kind.attributes.get(key)
+            if known is not None and known.type.name in ("xs:anyURI", "urifragment_type"):
+                _hash(context, element, key)
     scenes = context.all("physics_scene")
     for instance in context.all("instance_physics_scene"):
         url = instance.get("url", "")
@@ -88,9 +90,7 @@ def _hash(context: Context, element: etree._Element, key: str) -> None:
     value = element.get(key, "")
     if not value or value.startswith("#") or value not in context.ids:
         return
-    if key == "target" and local(element) in ("channel", "bind", "bind_joint_axis"):
-        return
-    if key in ("source", "target", "url", "parent", "convex_hull_of") and context.wants(rules.HASH):
+    if context.wants(rules.HASH):
         element.set(key, f"#{value}")
         message = f"{key}={value!r} of <{local(element)}> is an id; is now '#{value}'"
         context.note(rules.HASH, element, message)

@@ -38,7 +38,9 @@ def typed_elements(root: etree._Element) -> Iterator[tuple[etree._Element, Compl
         below = []
         for child in element.iterchildren(tag=etree.Element):
             known = kind.children.get(local(child))
-            kind_below = None if known is None else stated_type(child, known.type)
+            if known is None:
+                continue
+            kind_below = stated_type(child, known.type) or known.type
             if isinstance(kind_below, ComplexType):
                 below.append((child, kind_below))
         stack.extend(reversed(below))

@@ -36,9 +36,14 @@ def _frames(context: Context, named: bool, clues: Clues) -> None:
     model_frames.apply(context, forced=named)
 
 
-def _bullet(context: Context, named: bool, clues: Clues) -> None:
+def _whole(clues: Clues) -> bool:
+    """Whether Bullet wrote all of a file, not only a model into another's."""
     alone = "bullet" in clues.tools.lower() and ";" not in clues.tools
-    units.apply_bullet(context, whole=named or alone or clues.written_for == "bullet")
+    return alone or clues.written_for == "bullet"
+
+
+def _bullet(context: Context, named: bool, clues: Clues) -> None:
+    units.apply_bullet(context, whole=named or _whole(clues))
 
 
 def _nothing(context: Context, named: bool, clues: Clues) -> None:
@@ -109,17 +114,19 @@ def translate(context: Context, convention: str) -> None:
     if convention == "none" or find_note(context, "convention") is not None:
         return
     clues = read_clues(context)
-    chosen = by_name.get(convention)
-    why = "asked for by name"
-    if chosen is None:
-        for known in CONVENTIONS:
-            if evidence := known.recognise(clues):
-                chosen, why = known, evidence
-                break
-    if chosen is None or not context.wants(rules.CONVENTION):
+    named = by_name.get(convention)
+    chosen = [(named, "asked for by name")] if named else _recognised(clues)
+    if not chosen or not context.wants(rules.CONVENTION):
         return
-    message = f"the document is read as {chosen.name} means it ({chosen.summary}): {why}"
-    context.note(rules.CONVENTION, context.root, message)
-    chosen.apply(context, convention == chosen.name, clues)
+    for known, why in chosen:
+        message = f"the document is read as {known.name} means it ({known.summary}): {why}"
+        context.note(rules.CONVENTION, context.root, message)
+        known.apply(context, named is not None, clues)
     drop_note(context, "written_for")  # true of the file, not of the translated document
-    add_note(context, "convention", name=chosen.name)
+    add_note(context, "convention", name=" ".join(known.name for known, _ in chosen))
+
+
+def _recognised(clues: Clues) -> list[tuple[Convention, str]]:
+    """The first convention that fits; with Bullet also that of the file which Bullet edited."""
+    fitting = [(known, why) for known in CONVENTIONS if (why := known.recognise(clues))]
+    return fitting[: 2 if fitting and fitting[0][0].name == "bullet" and not _whole(clues) else 1]
