@@ -199,7 +199,8 @@ class Creating(Viewing):
             raise refuse(COLUMNS, f"The column sids has the shape {sids.shape}, not {(count,)}.")
         if count == 0:
             return sids
-        if sids.min() < 1 or len(np.unique(sids)) < count:
+        ascending = bool(np.all(sids[1:] > sids[:-1]))
+        if sids.min() < 1 or not (ascending or len(np.unique(sids)) == count):
             raise refuse(SYSTEM_ID, "System ids are positive and differ from each other.")
         if sids.min() < self.next_body_sid:
             used = [sid for sid in sids[sids < self.next_body_sid].tolist() if sid in self]

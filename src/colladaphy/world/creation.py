@@ -95,11 +95,11 @@ def _check_dimensions(values: dict[str, Array]) -> None:
 def _check_references(
     values: dict[str, Array], materials: Materials, meshes: Mapping[int, Mesh]
 ) -> None:
-    for id in np.unique(values["material_ids"]).tolist():
+    for id in _distinct(values["material_ids"])[0].tolist():
         if id not in materials:
             raise refuse(MATERIAL_UNKNOWN, f"There is no material with the id {id}.")
     is_mesh = values["kinds"] == Kind.MESH
-    for id in np.unique(values["mesh_ids"][is_mesh]).tolist():
+    for id in _distinct(values["mesh_ids"][is_mesh])[0].tolist():
         if id not in meshes:
             raise refuse(MESH, f"There is no mesh with the id {id}.")
     if np.any(values["mesh_ids"][~is_mesh] != -1):
@@ -184,5 +184,18 @@ def mass_and_inertia(
 
 
 def _densities(ids: Array, materials: Materials) -> Array:
-    used, where = np.unique(ids, return_inverse=True)
+    used, where = _distinct(ids)
     return np.array([materials[id].density for id in used.tolist()])[where]
+
+
+def _distinct(ids: Array) -> tuple[Array, Array]:
+    """The different ids, and which of them each one is."""
+    low, high = (int(ids.min()), int(ids.max())) if len(ids) else (0, 0)
+    if high - low > 2 * len(ids):
+        return np.unique(ids, return_inverse=True)
+    # Close together, as they mostly are: counting is faster than sorting.
+    offsets = ids - low
+    used = np.flatnonzero(np.bincount(offsets))
+    places = np.zeros(high - low + 1, dtype=np.int64)
+    places[used] = np.arange(len(used))
+    return used + low, places[offsets]
