@@ -27,6 +27,7 @@ from colladaphy.mapper.shape_texts import (
     profile_geometry,
     settling_steps,
 )
+from colladaphy.mapper.tessellation import extent, tessellate
 from colladaphy.world import rotations
 from colladaphy.world.creation import mass_and_inertia
 from colladaphy.world.kinds import Kind
@@ -34,7 +35,7 @@ from colladaphy.world.shapes import solid_volume
 
 if TYPE_CHECKING:
     from colladaphy.mapper.options import WriteOptions
-    from colladaphy.world import World
+    from colladaphy.world import Mesh, World
 
 __all__ = ["ShapeTexts", "identity", "instance_texts", "node_texts", "rotation_texts"]
 
@@ -69,6 +70,11 @@ class ShapeTexts:
         kinds, dimensions = columns["kinds"], columns["dimensions"]
         self.kinds: list[int] = kinds.tolist()
         self.geometry = geometry_texts(kinds, dimensions, columns["mesh_ids"], planes)
+        self._settled: dict[tuple[int, int], str] = {}
+        self.tessellated: dict[str, Mesh] = {}
+        """The meshes that stand for primitives, by the ids of their geometries."""
+        if options.tessellate:
+            self._tessellate()
         self.weight, weight_is_exact = self._weights()
         self._derived = self._derived_inertias()
         solid = kinds != Kind.UNION
@@ -120,30 +126,54 @@ class ShapeTexts:
         derived: Array = solid & np.all(same_bits(inertias, columns["inertias"]), axis=(1, 2))
         return derived
 
+    def _tessellate(self) -> None:
+        """Let meshes stand for all primitives but planes."""
+        columns = self._columns
+        known: dict[tuple[float, ...], str] = {}
+        for row, kind in enumerate(self.kinds):
+            if kind in (Kind.PLANE, Kind.MESH, Kind.UNION):
+                continue
+            dimensions = tuple(columns["dimensions"][row].tolist())
+            name = known.get((kind, *dimensions))
+            if name is None:
+                name = known[kind, *dimensions] = f"Shape{columns['sids'][row]}"
+                size = extent(Kind(kind), dimensions)
+                if size is None or not 1e-50 < np.min(size) <= np.max(size) < 1e50:
+                    # Too small or too large for arithmetic; it stays what it is.
+                    known[kind, *dimensions] = ""
+                    continue
+                self.tessellated[name] = tessellate(Kind(kind), dimensions, row)
+            if name:
+                self.geometry[row] = f'<instance_geometry url="#{name}"/>'
+
+    def _settling(self, kind: int, mesh_id: int, geometry: str) -> str:
+        """The transforms that put a geometry into the body's own frame."""
+        if mesh_id < 0 and geometry.startswith("<instance"):
+            return ""
+        known = self._settled.get((kind, mesh_id))
+        if known is None:
+            mesh = self._world.meshes[mesh_id] if kind == Kind.MESH else None
+            known = self._settled[kind, mesh_id] = settling_steps(Kind(kind), mesh)
+        return known
+
     def shape(self, row: int, pose_steps: str) -> str:
         """The shape element of a primitive that stands at `pose_steps` in its rigid_body."""
         columns = self._columns
-        kind = Kind(self.kinds[row])
-        mesh = None
-        if kind is Kind.MESH:
-            mesh = self._world.meshes[int(columns["mesh_ids"][row])]
         hollow = "<hollow>true</hollow>" if columns["hollow"][row] else ""
         material = _material(int(columns["material_ids"][row]))
-        steps = pose_steps + settling_steps(kind, mesh)
-        return f"<shape>{hollow}{self.weight[row]}{material}{self.geometry[row]}{steps}</shape>"
+        geometry = self.geometry[row]
+        steps = self._settling(self.kinds[row], int(columns["mesh_ids"][row]), geometry)
+        return f"<shape>{hollow}{self.weight[row]}{material}{geometry}{pose_steps}{steps}</shape>"
 
     def shapes(self) -> list[str]:
         """The shape elements of primitives that are their rigid_body's only shape."""
         columns = self._columns
         materials = {id: _material(id) for id in np.unique(columns["material_ids"]).tolist()}
         hollow = ("", "<hollow>true</hollow>")
-        settled: dict[tuple[int, int], str] = {}
-        for kind, id in set(zip(self.kinds, columns["mesh_ids"].tolist(), strict=True)):
-            mesh = self._world.meshes[id] if kind == Kind.MESH else None
-            settled[kind, id] = settling_steps(Kind(kind), mesh)
+        settling = self._settling
         return [
             f"<shape>{hollow[is_hollow]}{weight}{materials[material]}{geometry}"
-            f"{settled[kind, mesh_id]}</shape>"
+            f"{settling(kind, mesh_id, geometry)}</shape>"
             for is_hollow, weight, material, geometry, kind, mesh_id in zip(
                 columns["hollow"].tolist(),
                 self.weight,

@@ -13,6 +13,7 @@ from colladaphy.mapper import rules
 from colladaphy.mapper.plans import Dimensions, Part
 from colladaphy.mapper.shapes import Shape, ShapeError, read_shape, unit_plane
 from colladaphy.mapper.tensors import Tensor, diagonal, turned
+from colladaphy.mapper.tessellation import extent
 from colladaphy.world.kinds import Kind
 
 if TYPE_CHECKING:
@@ -100,6 +101,7 @@ class Mapping:
             else self.precision.same_each(shape.dimensions, exact)
         )
         if shape.kind is Kind.MESH and self._is_tessellated(kind, exact, shape):
+            shape.pose = shape.placed
             same = True
         if self.decide("shape", shape.dimensions, exact, same):
             return kind, exact
@@ -117,21 +119,10 @@ class Mapping:
         mesh = shape.mesh
         if mesh is None or not mesh.convex:
             return False
-        reach = np.max(np.abs(mesh.body_vertices), axis=0)
-        x, y, z, length = exact
-        match kind:
-            case Kind.SPHERE:
-                size = np.array([x, x, x])
-            case Kind.BOX:
-                size = np.array([x, y, z]) / 2.0
-            case Kind.ELLIPSOID:
-                size = np.array([x, y, z])
-            case Kind.CAPSULE:
-                size = np.array([x + length / 2.0, y, z])
-            case Kind.CYLINDER:
-                size = np.array([length / 2.0, y, z])
-            case _:
-                return False
+        size = extent(kind, exact)
+        if size is None:
+            return False
+        reach = np.max(np.abs(mesh.vertices), axis=0)
         return bool(np.all(np.abs(reach - size) <= 2e-6 * np.max(size)))
 
 
@@ -363,6 +354,8 @@ def _refined(
     else:
         where = outer.then(kept.pose)
         part.kind, part.dimensions = mapping.dimensions(shape, kept, where)
+        if part.kind is not Kind.PLANE:
+            part.pose = shape.pose
         if part.kind is not Kind.MESH:
             part.mesh_id = -1
         part.mass = mapping.mass(part.mass, kept.mass)

@@ -43,7 +43,10 @@ class Geometries:
         known = self._known.get(target.element)
         if known is None:
             try:
-                known = self._read(target.document, target.element)
+                with np.errstate(all="ignore"):
+                    known = self._read(target.document, target.element)
+            except OverflowError:
+                known = ShapeError("The mesh is too large for arithmetic.")
             except WorldError as error:
                 known = ShapeError(error.findings[0].message, empty="volume" in str(error))
             except ShapeError as error:

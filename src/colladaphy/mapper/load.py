@@ -116,7 +116,17 @@ class _Loader:
         if self._prefer != "common":
             apply_pairs(self._world, chosen, self._materials)
         restore_counters(self._world, chosen, self._prefer)
+        self._drop_unused_meshes()
         return self._world
+
+    def _drop_unused_meshes(self) -> None:
+        """Forget meshes that no body has: of skipped bodies, or in the place of primitives."""
+        world = self._world
+        used = {
+            id for table in (world.top, world.inner) for id in table.column("mesh_ids").tolist()
+        }
+        for id in set(world.meshes) - used:
+            del world.meshes[id]
 
     # --- bodies
 

@@ -52,6 +52,8 @@ class Shape:
     pose: Pose
     """Of the World's body frame in the rigid_body; of a plane, see `kind`: the identity."""
     mesh: Mesh | None = None
+    placed: Pose = IDENTITY
+    """Where the file puts the geometry, whose centre of mass may be elsewhere."""
     hollow: bool = False
     mass: float | None = None
     density: float | None = None
@@ -81,10 +83,12 @@ def read_shape(element: etree._Element, document: Document, geometries: Geometri
         raise ShapeError("The shape has no geometry.")
     name = local_name(geometry.tag)
     mesh = None
+    placed = IDENTITY
     if name == "instance_geometry":
         mesh = geometries.mesh(geometry, document)
         kind, dimensions = Kind.MESH, (0.0, 0.0, 0.0, 0.0)
-        pose = pose_of_steps(steps).then(Pose(_or_none(mesh.center.tolist())))
+        placed = pose_of_steps(steps)
+        pose = placed.then(Pose(_or_none(mesh.center.tolist())))
         if pose.position is not None and not any(pose.position):
             pose = Pose(None, pose.orientation)
     elif name == "plane":
@@ -94,7 +98,7 @@ def read_shape(element: etree._Element, document: Document, geometries: Geometri
     else:
         kind, dimensions = primitive(geometry)
         pose = _axis_pose(steps) if kind in (Kind.CAPSULE, Kind.CYLINDER) else pose_of_steps(steps)
-    return Shape(element, kind, dimensions, pose, mesh, hollow, mass, density, material)
+    return Shape(element, kind, dimensions, pose, mesh, placed, hollow, mass, density, material)
 
 
 def _or_none(position: list[float]) -> tuple[float, float, float] | None:

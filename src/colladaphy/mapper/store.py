@@ -34,7 +34,7 @@ from colladaphy.world.columns import BODY_FIELDS
 from colladaphy.world.kinds import Kind
 
 if TYPE_CHECKING:
-    from colladaphy.world import World
+    from colladaphy.world import Mesh, World
 
 __all__ = ["store", "store_text"]
 
@@ -71,6 +71,7 @@ class _Writer:
         }
         self._sids: list[int] = self._columns["sids"].tolist()
         self._models = self._grouped()
+        self._tessellated: dict[str, Mesh] = {}
 
     def _grouped(self) -> dict[str, list[int]]:
         """The rows of each physics model, by its name."""
@@ -128,10 +129,12 @@ class _Writer:
             planes[row] = columns["dimensions"][row].tolist()
         is_union = kinds == Kind.UNION
         texts = ShapeTexts(world, columns, options, planes)
+        self._tessellated |= texts.tessellated
         shapes = texts.shapes()
         values, profiles = self._values(texts)
         if np.any(is_union):
             unions = UnionTexts(world, options)
+            self._tessellated |= unions.tessellated
             for row in np.flatnonzero(is_union).tolist():
                 shapes[row], content, mass = unions.shapes(self._sids[row])
                 values[row] = self._union_values(row, mass)
@@ -274,7 +277,9 @@ class _Writer:
         return [id for id in ids if id >= 0]
 
     def _geometries(self) -> list[str]:
-        return [mesh_text(self._world.meshes[id], f"Mesh{id}") for id in self._used("mesh_ids")]
+        meshes = self._world.meshes
+        stored = [mesh_text(meshes[id], f"Mesh{id}") for id in self._used("mesh_ids")]
+        return stored + [mesh_text(mesh, name) for name, mesh in self._tessellated.items()]
 
     def _written_materials(self) -> list[int]:
         if self._options.materials == "all":

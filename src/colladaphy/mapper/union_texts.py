@@ -53,6 +53,8 @@ class UnionTexts:
             planes[row] = _plane(self._poses[row])
         self._texts = ShapeTexts(world, self._columns, options, planes)
         self._leaf_mass = 0.0
+        self.tessellated = self._texts.tessellated
+        """The meshes that stand for primitives, by the ids of their geometries."""
 
     def _place(self, children: tuple[int, ...], outer: Pose) -> None:
         """Remember the pose of every member in its outermost union."""
