@@ -22,7 +22,7 @@ __all__ = ["Model", "build"]
 _ITERATIONS = 20
 _SLEEP_AFTER = 0.5  # of the World's unit of time
 _SLOP = 1e-3  # allowed overlap against the smallest dimension of a moving body
-_REACH = 1e3  # half length of the slab that stands for a plane, against the size of the scene
+_REACH = 1e3  # half length and half depth of a plane's slab, against the size of the scene
 
 
 @dataclass(slots=True)
@@ -129,14 +129,14 @@ def _shape(
             start, end = _flat(outline.start - center), _flat(outline.end - center)
             return pymunk.Segment(body, start, end, outline.radius)
         case _:
-            # A slab as thick as the scene is large, its surface in the plane.
+            # A slab with its surface in the plane, thick enough that nothing shoots through it.
             normal = outline.normal
             along = np.array([-normal[1], normal[0]])
-            depth = 2.0 * size
+            depth = _REACH * size
             off = middle - outline.point
             foot = outline.point + along * (off[0] * along[0] + off[1] * along[1])
             inner = foot - normal * depth - center
-            reach = _REACH * size * along
+            reach = depth * along
             return pymunk.Segment(body, _flat(inner - reach), _flat(inner + reach), depth)
 
 
