@@ -86,6 +86,37 @@ def test_what_is_wrong_is_found(old: bytes, new: bytes, code: str, words: str) -
         colladaphy.read(VALID.replace(old, new)).load()
 
 
+@pytest.mark.parametrize("number", ["1e", "2.5E+", "-3.e-", " 1e "])
+def test_numbers_with_half_an_exponent(number: str) -> None:
+    """libxml2 lets them pass; the standard's lexical form does not."""
+    report = validate(VALID.replace(b"<radius>1<", f"<radius>{number}<".encode()))
+    (finding,) = report.errors
+    assert (finding.code, finding.line) == ("schema-invalid-value", 7)
+    assert f"'{number}'" in finding.message
+
+
+@pytest.mark.parametrize(
+    "harmless", [b'<node id="node" name="1e"/>', b'<node id="node" name="a 2e+ b"/><!-- 1e -->']
+)
+def test_names_may_look_like_half_a_number(harmless: bytes) -> None:
+    assert codes(VALID.replace(b'<node id="node"/>', harmless)) == []
+
+
+@pytest.mark.parametrize(
+    "number",
+    ["1_0", "١", "+INF", "nan", "Infinity", "0x10", ".", "1,5", "1d5", "--1", "\u00a01", "", "e5"],
+)
+def test_only_the_standards_spelling_of_numbers(number: str) -> None:
+    assert codes(VALID.replace(b"<radius>1<", f"<radius>{number}<".encode())) == [
+        "schema-invalid-value"
+    ]
+
+
+@pytest.mark.parametrize("number", ["INF", "-INF", "NaN", "1.", ".5", "+1", "1e999", " 1E-5\n"])
+def test_all_of_the_standards_spelling_of_numbers(number: str) -> None:
+    assert codes(VALID.replace(b"<radius>1<", f"<radius>{number}<".encode())) == []
+
+
 @pytest.mark.parametrize(
     ("old", "new"),
     [

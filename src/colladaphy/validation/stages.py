@@ -8,6 +8,7 @@ from colladaphy.document import Document
 from colladaphy.errors import InputError, XmlError
 from colladaphy.findings import Report
 from colladaphy.schema import gate
+from colladaphy.schema_numerals import incomplete_numbers
 from colladaphy.source import Limits, Parsed, Source, load, parse_loaded
 from colladaphy.source import rules as source_rules
 from colladaphy.source.places import locate
@@ -48,6 +49,7 @@ def validate(source: Source, *, limits: Limits | None = None) -> Report:
         report.extend(error.findings)
         return report
     report.extend(gate(parsed.tree))
+    report.extend(incomplete_numbers(parsed.tree, loaded.data))
     if report.valid:
         document = _document(parsed, report, {})
         report.extend(check_links(document))
