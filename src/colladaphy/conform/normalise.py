@@ -12,24 +12,22 @@ from dataclasses import replace
 from lxml import etree
 
 from colladaphy.conform import rules
-from colladaphy.conform.assumptions import assumed_attribute, assumed_element
+from colladaphy.conform.assumptions import assumed_attribute
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.grammar import (
     XSI,
     Attribute,
     ComplexType,
     Declaration,
-    Group,
     SimpleType,
     root_declaration,
     stated_type,
 )
 from colladaphy.conform.lexical import is_valid, mend
+from colladaphy.conform.plan import Plan, Pool, set_children
 from colladaphy.schema import gate
 
 __all__ = ["drop_foreign_types", "normalise"]
-
-_Pool = dict[str, list[etree._Element]]
 
 
 def normalise(context: Context) -> None:
@@ -236,11 +234,11 @@ class _Normaliser:
     def _arrange(
         self, element: etree._Element, kind: ComplexType, kids: list[etree._Element]
     ) -> None:
-        pool: _Pool = {}
+        pool: Pool = {}
         for child in kids:
             pool.setdefault(local(child), []).append(child)
         assert kind.content is not None or not pool
-        plan = _Plan(self.context, element)
+        plan = Plan(self.context, element)
         if kind.content is not None:
             plan.take(kind.content, pool)
         if plan.missing is not None:
@@ -274,114 +272,7 @@ class _Normaliser:
                 self.context.note(rules.CHILD_ORDER, element, message)
         if before == order:
             return
-        _set_children(element, order)
-
-
-class _Plan:
-    """Fills a content model from the children there are."""
-
-    def __init__(self, context: Context, element: etree._Element) -> None:
-        self.context = context
-        self.element = element
-        self.order: list[etree._Element] = []
-        self.made: dict[etree._Element, str] = {}
-        self.missing: str | None = None
-
-    def take(self, part: Declaration | Group, pool: _Pool) -> None:
-        """Move from `pool` to `order` what `part` may hold."""
-        if isinstance(part, Declaration):
-            self._element(part, pool)
-        elif part.high > 1:
-            self._repeated(part, pool)
-        elif part.low or _present(part, pool):
-            if part.kind == "sequence":
-                for inner in part.parts:
-                    self.take(inner, pool)
-            else:
-                self.take(self._branch(part, pool), pool)
-
-    def _element(self, part: Declaration, pool: _Pool) -> None:
-        found = pool.get(part.name, [])
-        taken, pool[part.name] = found[: part.high], found[part.high :]
-        self.order.extend(taken)
-        for _ in range(part.low - len(taken)):
-            new = assumed_element(self.context, self.element, part)
-            if new is None:
-                self.missing = self.missing or part.name
-                return
-            self.order.append(new[0])
-            self.made[new[0]] = f": {new[1]}" if new[1] else ""
-
-    def _repeated(self, part: Group, pool: _Pool) -> None:
-        names = {declaration.name for declaration in part.declarations()}
-        if part.kind == "choice" and all(isinstance(inner, Declaration) for inner in part.parts):
-            for child in self.element.iterchildren(tag=etree.Element):
-                rest = pool.get(local(child))
-                if local(child) in names and rest and rest[0] is child:
-                    self.order.append(rest.pop(0))
-            if part.low and not self.order:
-                self.missing = self.missing or " or ".join(sorted(names))
-            return
-        once = Group(part.kind, part.parts, 1, 1)
-        count = 0
-        while _present(part, pool) and self.missing is None:
-            before = len(self.order)
-            self.take(once, pool)
-            count += 1
-            if len(self.order) == before:
-                break
-        while count < part.low and self.missing is None:
-            self.take(once, pool)
-            count += 1
-
-    def _branch(self, part: Group, pool: _Pool) -> Declaration | Group:
-        """The branch of a choice that needs least and holds most of what is there."""
-
-        def cost(branch: Declaration | Group) -> tuple[int, int]:
-            needed = _required(branch)
-            lacking = sum(1 for name in needed if not pool.get(name))
-            inner = [branch] if isinstance(branch, Declaration) else branch.declarations()
-            return lacking, -len({item.name for item in inner if pool.get(item.name)})
-
-        present = [branch for branch in part.parts if _present(branch, pool)]
-        return min(present or part.parts, key=cost)
-
-
-def _present(part: Declaration | Group, pool: _Pool) -> bool:
-    names = [part] if isinstance(part, Declaration) else part.declarations()
-    return any(pool.get(declaration.name) for declaration in names)
-
-
-def _required(part: Declaration | Group) -> set[str]:
-    if not part.low:
-        return set()
-    if isinstance(part, Declaration):
-        return {part.name}
-    if part.kind == "choice":
-        return _required(part.parts[0]) if len(part.parts) == 1 else set()
-    return {name for inner in part.parts for name in _required(inner)}
-
-
-def _set_children(parent: etree._Element, order: list[etree._Element]) -> None:
-    """Put elements into this order; comments stay before the element they stand before."""
-    tails = [child.tail for child in parent]
-    units: dict[etree._Element, list[etree._Element]] = {}
-    waiting: list[etree._Element] = []
-    for child in parent:
-        waiting.append(child)
-        if local(child):
-            units[child] = waiting
-            waiting = []
-    nodes = [node for element in order for node in units.get(element, [element])] + waiting
-    blank = parent.text if parent.text and not parent.text.strip() else None
-    for node in list(parent):
-        parent.remove(node)
-    last = tails[-1] if tails else None
-    for node in nodes:
-        node.tail = blank
-        parent.append(node)
-    if nodes:
-        nodes[-1].tail = last
+        set_children(element, order)
 
 
 def _names(elements: list[etree._Element]) -> str:
