@@ -101,9 +101,31 @@ def test_samplers_of_profile_common(downgrade: Downgrade) -> None:
     assert findings == []
 
 
-@pytest.mark.parametrize("url", ["#other", "other.dae#i"])
+def test_what_an_upgrade_set_aside_of_a_sampler_comes_back(downgrade: Downgrade) -> None:
+    aside = (
+        "<extra><technique profile='colladaphy-1.4'><newparam sid='s'><sampler2D>"
+        "<instance_image url='#i'/><source>old</source><wrap_s>MIRROR</wrap_s>"
+        "<minfilter>LINEAR_MIPMAP_LINEAR</minfilter><magfilter>nonsense</magfilter></sampler2D>"
+        "</newparam></technique></extra>"
+    )
+    text = common("<newparam sid='s'><sampler2D/></newparam>")
+    new, _ = downgrade(text.replace("</profile_COMMON>", aside + "</profile_COMMON>"))
+    root = new.getroot()
+    assert root.findtext(".//c:profile_COMMON/c:newparam/c:surface/c:init_from", "", N) == "i"
+    sampler = root.find(".//c:profile_COMMON/c:newparam/c:sampler2D", N)
+    assert sampler is not None
+    assert [c.text for c in sampler] == [
+        "s-surface",
+        "MIRROR",
+        "LINEAR_MIPMAP_LINEAR",
+        "LINEAR",
+        "LINEAR",
+    ]
+
+
+@pytest.mark.parametrize("url", ["#other", "other.dae#i", "#1"])
 def test_an_image_that_cannot_be_set_is_kept(downgrade: Downgrade, url: str) -> None:
-    text = textured("<sampler_image url='other.dae#i'/>")
+    text = textured(f"<sampler_image url='{url}'/>")
     if url == "#other":
         text = textured("<sampler_image url='#i'/>").replace("url='#e'", "url='#other'")
     new, findings = downgrade(text)

@@ -6,7 +6,14 @@ from lxml import etree
 
 from colladaphy.conform.downgrade import rules
 from colladaphy.conform.downgrade.draft import Draft, detach, local, tag15
-from colladaphy.conform.downgrade.samplers import Sampler, change_sampler, set_image, set_states
+from colladaphy.conform.downgrade.samplers import (
+    Sampler,
+    change_sampler,
+    image_id,
+    kept_samplers,
+    set_image,
+    set_states,
+)
 
 __all__ = ["change_effects"]
 
@@ -17,10 +24,12 @@ def change_effects(draft: Draft) -> None:
     for effect in draft.all("effect"):
         if not any(local(child).startswith("profile_") for child in effect):
             _add_profile(draft, effect)
-        params = list(effect.iter(tag15("newparam")))
+        holders = (effect, *effect.findall(tag15("profile_COMMON")))
+        params = [param for holder in holders for param in holder.findall(tag15("newparam"))]
         sids = {param.get("sid", "") for param in params}
+        kept = kept_samplers(effect)
         for param in params:
-            sampler = change_sampler(draft, param, sids)
+            sampler = change_sampler(draft, param, sids, kept)
             if sampler is not None:
                 samplers[effect.get("id", ""), param.get("sid", "")] = sampler
     for instance in draft.all("instance_effect"):
@@ -40,7 +49,7 @@ def _change_setparam(draft: Draft, setparam: etree._Element, sampler: Sampler | 
         return
     if sampler is not None and name == "sampler_states":
         set_states(draft, setparam, value, sampler)
-    elif sampler is not None and value.get("url", "").startswith("#"):
+    elif sampler is not None and image_id(value):
         set_image(draft, setparam, value, sampler)
     else:
         message = f"COLLADA 1.4.1 cannot set this <{name}>; it is kept."
