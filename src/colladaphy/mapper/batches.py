@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.errors import WorldError
-from colladaphy.mapper.columns import Nodes, Rows, columns_of, read_rows
 from colladaphy.mapper.creation import free_ids, parts_of
 from colladaphy.mapper.plans import Part, Plan
+from colladaphy.mapper.rows import Nodes, Rows, columns_of, read_rows
 from colladaphy.world.columns import BodyColumns
 from colladaphy.world.kinds import Kind
 

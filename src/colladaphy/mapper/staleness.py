@@ -10,14 +10,16 @@ six significant digits that C++ streams write by default.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from lxml import etree
 
+from colladaphy.document.names import local_name
 from colladaphy.document.poses import Quaternion, unit_quaternion
 
 __all__ = ["Precision", "same_rotation"]
 
+_OTHERS = ("technique", "extra")
 _FEWEST_DIGITS = 6
 _ALL_DIGITS = 15
 _TINIEST = 2.3e-308
@@ -34,6 +36,16 @@ def significant_digits(word: str) -> int:
     return len(digits)
 
 
+def _texts(element: etree._Element) -> Iterator[str]:
+    """The texts of an element and those in it, without what stands in other profiles."""
+    if not isinstance(element.tag, str) or local_name(element.tag) in _OTHERS:
+        return
+    if element.text:
+        yield element.text
+    for child in element:
+        yield from _texts(child)
+
+
 class Precision:
     """How exactly the numbers of one record are written."""
 
@@ -42,11 +54,10 @@ class Precision:
     def __init__(self, records: Iterable[etree._Element]) -> None:
         most = _FEWEST_DIGITS
         for record in records:
-            for element in record.iter():
-                if isinstance(element.tag, str) and not len(element) and element.text:
-                    for word in element.text.split():
-                        if word[-1:].isdigit():
-                            most = max(most, significant_digits(word))
+            for text in _texts(record):
+                for word in text.split():
+                    if word[-1:].isdigit():
+                        most = max(most, significant_digits(word))
         digits = min(most, _ALL_DIGITS)
         # Half a unit of the last digit of a number that begins with 1, and some for arithmetic.
         self.tolerance = 0.5 * 10.0 ** (1 - digits) * 1.000001

@@ -321,7 +321,12 @@ class _Writer:
                 None if world.next_joint_sid == next_joint else world.next_joint_sid,
             )
         )
-        content = pair_texts(world.pair_overrides, set(self._written_materials()))
+        content = ""
+        if self._options.profile == "full":
+            content = f"<pe:gravity>{floats_text(world.gravity.tolist())}</pe:gravity>"
+            if world.time_step is not None:
+                content += f"<pe:time_step>{float_text(float(world.time_step))}</pe:time_step>"
+        content += pair_texts(world.pair_overrides, set(self._written_materials()))
         state = world.engine_state
         if state is not None:
             content += (
