@@ -47,13 +47,13 @@ def test_every_component_of_the_schema(oracle: XmlParser) -> None:
         check(document, oracle)
 
 
-@settings(max_examples=60)
+@settings(max_examples=settings().max_examples // 2)
 @given(document=documents(size=40))
 def test_generated_documents(document: bytes, oracle: XmlParser) -> None:
     check(document, oracle)
 
 
-@settings(max_examples=60)
+@settings(max_examples=settings().max_examples // 2)
 @given(document=documents(size=30, xsi_types=True))
 def test_generated_documents_with_derived_types(document: bytes) -> None:
     tree = etree.parse(BytesIO(document)).getroot()

@@ -213,7 +213,7 @@ def test_one_of_many_bodies_changes(count: int) -> None:
     check(tree, root)
 
 
-@settings(max_examples=40)
+@settings(max_examples=settings().max_examples // 2)
 @given(documents(size=30), documents(size=30))
 def test_one_document_becomes_any_other(first: bytes, second: bytes) -> None:
     tree = etree.ElementTree(etree.fromstring(first))
@@ -233,7 +233,7 @@ def parts(value: Any) -> list[Any]:
     return found
 
 
-@settings(max_examples=80)
+@settings(max_examples=settings().max_examples // 2)
 @given(documents(size=40), st.data())
 def test_any_edits_are_saved_exactly(document: bytes, data: st.DataObject) -> None:
     tree = etree.ElementTree(etree.fromstring(document))
