@@ -73,7 +73,7 @@ def _floats(element: etree._Element) -> list[float]:
     return [float(word) for word in (element.text or "").split()]
 
 
-def _transform(element: etree._Element, matrices: bool = True) -> Array:
+def transform(element: etree._Element, matrices: bool = True) -> Array:
     """The order of the steps is lost: the last matrix, all rotates, all translates added."""
     basis, origin = np.eye(3), np.zeros(3)
     for matrix in element.findall(NS + "matrix") if matrices else []:
@@ -154,7 +154,7 @@ class _Reader:
             inner = element.findall(NS + "rotate") + element.findall(NS + "translate")
             if len(elements) > 1 or inner:
                 compound = True
-            shapes.append(BulletShape(kind, sizes, _transform(element)))
+            shapes.append(BulletShape(kind, sizes, transform(element)))
         if not shapes:
             self.world.lost.append(body.get("sid", ""))
             return
@@ -173,7 +173,7 @@ class _Reader:
             BulletBody(
                 body.get("sid", ""),
                 mass if dynamic else 0.0,
-                _transform(node),
+                transform(node),
                 shapes,
                 compound,
                 velocities[0],
@@ -269,7 +269,7 @@ class _Reader:
             assert attachment is not None
             name = attachment.get("rigid_body", "")
             bodies.append(next((b for b in reversed(self.world.bodies) if b.sid == name), None))
-            frames.append(_transform(attachment, matrices=False))
+            frames.append(transform(attachment, matrices=False))
         common = element.find(NS + "technique_common")
         assert common is not None
         low, high = [], []
