@@ -293,6 +293,7 @@ def _profiled_union(
     profile = mapping.profile
     assert profile is not None
     leaves = iter(list(zip(members, shapes, strict=True)))
+    whole_center = center_of(members)
     part = Part(Kind.UNION)
     part.members = [_refined(mapping, child, leaves, Pose()) for child in tree.members or ()]
     masses = [leaf.mass or 0.0 for leaf in members]
@@ -305,15 +306,13 @@ def _profiled_union(
     part.inertia = mapping.inertia(mapping.stated_inertia(IDENTITY), profile.inertia)
     frame = mapping.values.mass_frame
     center = None if frame is None else frame.position
-    if mapping.edited or tree.pose != IDENTITY:
-        # A shape is another one now, so the centre of mass and the inertia are, too.
-        part.mass = mapping.values.mass
-        part.inertia = None
-        center = center_of(members)
+    if mapping.edited:
         for child in part.members:
             _forget_sums(child)
-    elif profile.inertia is None:
-        center = center_of(members) if frame is None else center
+        if mapping.values.inertia is None:
+            part.inertia = None
+    if frame is None and (mapping.edited or profile.inertia is None):
+        center = whole_center
     place = Pose(center if center is None or any(center) else None)
     for child in part.members:
         child.pose = place.inverse().then(child.pose)
