@@ -131,7 +131,7 @@ def _write_everywhere(draft: Draft, geometries: Geometries, levels: list[Level])
         for shape in element.iterfind(f"{tag15('technique_common')}/{tag15('shape')}"):
             write_shape(draft, shape, geometries, moves=body is not None and moves(body))
     changed = [element for element in draft.all("rigid_constraint") if write_limits(draft, element)]
-    changed += [body.instance for body in bodies.values() if to_radians(body)]
+    changed += [user for user in draft.all("instance_rigid_body") if to_radians(user)]
     if changed:
         message = f"Angles of {len(changed)} constraints and bodies are in radians."
         draft.note(rules.RADIANS, changed[0], message)
@@ -140,7 +140,11 @@ def _write_everywhere(draft: Draft, geometries: Geometries, levels: list[Level])
 def _mark(draft: Draft) -> None:
     """Say for whom this was written, and forget whose meaning was turned into the standard's."""
     for old in list(draft.root.iter(f"{{{_CONFORM}}}convention", MARK)):
+        technique = old.getparent()
         detach(old)
+        holder = None if technique is None else technique.getparent()
+        if technique is not None and holder is not None and not len(technique):
+            detach(technique if len(holder) > 1 else holder)
     extra = draft.make("extra")
     technique = draft.make("technique", attributes={"profile": "colladaphy"})
     mark = etree.SubElement(technique, MARK, nsmap=cast("dict[str, str]", {None: _CONFORM}))

@@ -194,9 +194,9 @@ def move_attachment(draft: Draft, attachment: etree._Element, inner: Matrix) -> 
 # -- the rest ---------------------------------------------------------------------------------
 
 
-def to_radians(body: Body) -> bool:
+def to_radians(instance: etree._Element) -> bool:
     """Write the angular velocity in radians per second; whether there was one to change."""
-    common = _common(body.instance)
+    common = _common(instance)
     for element in children(common, "velocity", "angular_velocity"):
         if not floats_of(element):
             element.text = "0.0 0.0 0.0"

@@ -101,8 +101,9 @@ def _write_cylinder(
     geometries: Geometries,
 ) -> None:
     height, radii = values["height"][0], values["radius"]
-    if radii[0] != radii[1]:
-        _write_mesh(draft, cylinder, cylinder_mesh(height, radii), geometries)
+    if radii[0] != radii[1] and _write_mesh(
+        draft, cylinder, cylinder_mesh(height, radii), geometries
+    ):
         return
     children(cylinder, "height")[0].text = number_text(height / 2)
 
@@ -112,10 +113,11 @@ def _write_mesh(
     primitive: etree._Element,
     mesh: tuple[np.ndarray[tuple[int, int], np.dtype[np.float64]], np.ndarray],
     geometries: Geometries,
-) -> None:
+) -> bool:
+    """Put a convex mesh in the place of a primitive, unless it would have no volume."""
     points, triangles = mesh
     if mesh_solid(points, triangles) is None:
-        return
+        return False
     url = geometries.add(f"{local(primitive)}-bullet", points, triangles, convex=True)
     message = f"The <{local(primitive)}> with different radii became the convex mesh {url!r}."
     draft.note(rules.TESSELLATED, primitive, message)
@@ -124,3 +126,4 @@ def _write_mesh(
     parent = primitive.getparent()
     if parent is not None:
         parent.remove(primitive)
+    return True

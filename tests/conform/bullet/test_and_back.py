@@ -1,0 +1,57 @@
+"""There and back: written for Bullet, perhaps saved by it, and read again with conform."""
+
+from __future__ import annotations
+
+import numpy as np
+from hypothesis import given, settings
+from lxml import etree
+from tests.conform.bullet import standard_reader
+from tests.conform.bullet.conftest import Export
+from tests.conform.bullet.rewritten import rewrite
+from tests.conform.bullet.scenes import scenes
+from tests.conform.bullet.test_same_meaning import free
+
+from colladaphy.conform import conform
+
+
+def read_again(text: bytes) -> standard_reader.Scene:
+    tree, _ = conform(etree.ElementTree(etree.fromstring(text)))
+    return standard_reader.read(etree.tostring(tree))
+
+
+@settings(max_examples=25)
+@given(document=scenes())
+def test_what_was_written_for_bullet_reads_back(document: bytes, export: Export) -> None:
+    text, _ = export(document)
+    compare(standard_reader.read(document), read_again(text), 1e-6)
+
+
+@settings(max_examples=25)
+@given(document=scenes())
+def test_what_bullet_saved_reads_back(document: bytes, export: Export) -> None:
+    text, _ = export(document)
+    compare(standard_reader.read(document), read_again(rewrite(text)), 1e-2)
+
+
+def compare(want: standard_reader.Scene, got: standard_reader.Scene, tolerance: float) -> None:
+    assert np.array_equal(want.gravity, got.gravity)
+    assert len(want.bodies) == len(got.bodies)
+    for body, again in zip(want.bodies, got.bodies, strict=True):
+        assert body.dynamic == again.dynamic
+        if body.dynamic:
+            assert np.isclose(body.mass, again.mass, rtol=1e-5)
+            assert np.allclose(body.center, again.center, atol=tolerance)
+            assert np.allclose(body.velocity, again.velocity, rtol=1e-5)
+            assert np.allclose(body.angular_velocity, again.angular_velocity, rtol=1e-5)
+        for shape, other in zip(body.shapes, again.shapes, strict=True):
+            assert shape.kind == other.kind
+            assert np.allclose(shape.sizes, other.sizes, rtol=1e-4, atol=1e-5)
+            assert np.allclose(shape.pose, other.pose, atol=tolerance)
+    assert len(want.constraints) == len(got.constraints)
+    for bound, again in zip(want.constraints, got.constraints, strict=True):
+        assert (bound.first, bound.second) == (again.first, again.second)
+        for frame, place in zip(bound.frames, again.frames, strict=True):
+            assert np.allclose(frame, place, atol=tolerance)
+        for low, high, a, b in zip(bound.low, bound.high, again.low, again.high, strict=True):
+            assert free(low, high) == free(a, b)
+            assert free(low, high) or np.allclose([low, high], [a, b], atol=1e-4)
