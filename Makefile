@@ -14,12 +14,14 @@ test: $(STAMP)
 
 check: $(STAMP)
 	$(BIN)/python -m tools.bindings --check
+	$(BIN)/python -m tools.rules_page --check
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 
 generate: $(STAMP)
 	$(BIN)/python -m tools.bindings
+	$(BIN)/python -m tools.rules_page
 
 bench: $(STAMP)
 	$(BIN)/python -m tools.bench
