@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable
 
 from tools.bindings.common import PACKAGE, PREFIXES, Needs, Record
@@ -110,21 +111,30 @@ def package_module(classes: dict[str, str]) -> str:
         "from __future__ import annotations",
         "",
         "from importlib import import_module",
-        "from typing import TYPE_CHECKING, Any",
+        "from typing import Any",
         "",
-        "if TYPE_CHECKING:",
+        "_HOMES = {",
     ]
-    modules = sorted(set(classes.values()))
-    for module in modules:
+    for module in sorted(set(classes.values())):
         names = sorted(name for name, home in classes.items() if home == module)
-        shown = ", ".join(f"{name} as {name}" for name in names)
-        lines.append(f"    from {PACKAGE}.{module} import ({shown},)")
-    lines += ["", "_HOMES = {"]
-    for module in modules:
-        names = sorted(name for name, home in classes.items() if home == module)
-        lines.append(f"    {module!r}: {' '.join(names)!r}.split(),")
+        wrapped = textwrap.wrap(" ".join(names), 92)
+        lines += [
+            f'    {module!r}: """',
+            *(f"        {line}" for line in wrapped),
+            '    """.split(),',
+        ]
     lines += ["}", "_CLASSES = {name: home for home, names in _HOMES.items() for name in names}"]
     return "\n".join(lines) + PACKAGE_CODE
+
+
+def package_stub(classes: dict[str, str]) -> str:
+    """What type checkers read of the package's `__init__`; at run time it would cost time."""
+    lines = [f'"""COLLADA 1.5 and the pe profile as dataclasses. {MARK}"""', ""]
+    for module in sorted(set(classes.values())):
+        names = sorted(name for name, home in classes.items() if home == module)
+        shown = ", ".join(f"{name} as {name}" for name in names)
+        lines.append(f"from {PACKAGE}.{module} import ({shown},)")
+    return "\n".join([*lines, "", "def load_all() -> None: ...", ""])
 
 
 PACKAGE_CODE = '''

@@ -14,7 +14,7 @@ from xsdata.models.config import GeneratorConfig
 
 from tools.bindings.common import PACKAGE, ancestry
 from tools.bindings.model import Model, Record
-from tools.bindings.modules import MARK, codec_module, package_module, registry_module
+from tools.bindings.modules import MARK, codec_module, package_module, package_stub, registry_module
 
 # Modules whose name is not their schema file's.
 RENAMED = {"collada": "document", "pe_profile": "pe"}
@@ -69,6 +69,7 @@ class BindingsGenerator(DataclassGenerator):
         records = list(model.records.values())
         yield GeneratorResult(root / "registry.py", "registry", registry_module(records, lazy))
         yield GeneratorResult(root / "__init__.py", "package", package_module(homes(records)))
+        yield GeneratorResult(root / "__init__.pyi", "stub", package_stub(homes(records)))
         for path in sorted(RUNTIME.glob("*.py")):
             if path.stem in lazy:
                 raise ValueError(f"the schema file {path.stem} has the name of a runtime module")
