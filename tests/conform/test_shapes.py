@@ -96,6 +96,10 @@ def test_solids_without_an_element_become_closed_convex_meshes(
     assert (points[:, 1].max(), points[:, 1].min()) == pytest.approx((top, bottom))
     assert etree.QName(etree.fromstring(solid)).localname in kept(root)
     assert any("#" in finding.message for finding in findings)
+    expected = {"tapered": "upgrade-tapered-shape", "sphere": "repair-sphere-radius"}
+    assert expected.get(solid[1:].split("_")[0].split(">")[0], "repair-inline-mesh") in codes(
+        findings
+    )
 
 
 def test_a_tapered_capsule_is_the_hull_of_its_caps() -> None:

@@ -152,3 +152,9 @@ def test_what_1_4_allowed_and_1_5_does_not_is_kept() -> None:
     assert names(root, "render") == ["extra"]
     assert 'url="#e"' in kept(root)
     assert codes(findings) == {"upgrade-version", "repair-unexpected-element"}
+
+
+def test_the_namespace_decides_against_the_version_attribute() -> None:
+    root, findings = mended(parse(f'<COLLADA xmlns="{NS_1_5}" version="1.4.1">{ASSET}</COLLADA>'))
+    assert root.get("version") == "1.5.0"
+    assert codes(findings) == {"repair-version"}

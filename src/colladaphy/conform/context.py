@@ -6,6 +6,7 @@ import copy
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import cast
 
 from lxml import etree
@@ -18,16 +19,16 @@ __all__ = ["CONFORM", "NS", "OWN_MAP", "Context", "local", "standard_elements"]
 NS = "{" + NAMESPACE + "}"
 CONFORM = "urn:colladaphy:conform:1"
 OWN_MAP = {"conform": CONFORM}
-_LOCAL: dict[object, str] = {}  # tags repeat; taking them apart each time costs half the run
 
 
 def local(element: etree._Element) -> str:
     """The local name of an element; "" for a comment or a processing instruction."""
-    tag = element.tag
-    name = _LOCAL.get(tag)
-    if name is None:
-        name = _LOCAL[tag] = tag.rpartition("}")[2] if isinstance(tag, str) else ""
-    return name
+    return _name_in(element.tag)
+
+
+@lru_cache(maxsize=4096)  # tags repeat; taking them apart each time costs half the run
+def _name_in(tag: object) -> str:
+    return tag.rpartition("}")[2] if isinstance(tag, str) else ""
 
 
 def line_of(element: etree._Element) -> int | None:

@@ -174,13 +174,27 @@ def _empty_sid(context: Context, element: etree._Element) -> None:
     context.note(rules.SID_EMPTY, element, message)
 
 
+def _with_new_sids(value: str, renamed: dict[str, str]) -> str:
+    """A path with old sids replaced; an old sid may itself hold the signs that divide a path."""
+    starts = [0, *(i + 1 for i, sign in enumerate(value) if sign in "/#")]
+    ends = [*(i for i, sign in enumerate(value) if sign in "/.("), len(value)]
+    made, done = [], 0
+    for start in starts:
+        if start < done:
+            continue
+        for end in reversed(ends):
+            if end > start and (new := renamed.get(value[start:end])) is not None:
+                made += [value[done:start], new]
+                done = end
+                break
+    return "".join([*made, value[done:]])
+
+
 def _rename_sids(root: etree._Element, renamed: dict[str, str]) -> None:
     """Rewrite references that end in an old sid, by the longest old sid that fits."""
-    names = sorted(renamed, key=len, reverse=True)
-    pattern = re.compile("(^|[/#])(" + "|".join(map(re.escape, names)) + r")(?=$|[/.(])")
 
     def new(value: str) -> str:
-        return pattern.sub(lambda match: match[1] + renamed[match[2]], value)
+        return _with_new_sids(value, renamed)
 
     for element in standard_elements(root):
         for key, value in list(element.attrib.items()):

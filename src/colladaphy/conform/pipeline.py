@@ -14,6 +14,7 @@ from colladaphy.conform.identifiers import mend_ids, mend_sids
 from colladaphy.conform.normalise import drop_foreign_types, normalise
 from colladaphy.conform.versions import copy_as_1_5, detect_version, note_version
 from colladaphy.findings import Finding
+from colladaphy.schema import is_valid
 
 __all__ = ["conform"]
 
@@ -25,10 +26,11 @@ _UPGRADE: tuple[_Step, ...] = (
     upgrade.upgrade_samplers,
     upgrade.set_aside_profiles,
 )
-_REPAIR: tuple[_Step, ...] = (
+# Names come first: what follows refers to them, and libxml2 remembers ids it has once seen.
+_NAMES: tuple[_Step, ...] = (mend_ids, mend_sids)
+# Only an invalid document needs these.
+_FORM: tuple[_Step, ...] = (
     structure.correct_names,
-    mend_ids,
-    mend_sids,
     structure.house_strays,
     structure.wrap_children,
     shapes.lift_inline_meshes,
@@ -42,14 +44,17 @@ _REPAIR: tuple[_Step, ...] = (
     bodies.name_bodies,
     bodies.wrap_bare_instances,
     bodies.complete_constraints,
+)
+_REFERENCES: tuple[_Step, ...] = (
     references.mend_urls,
     references.complete_instances,
     references.mend_instances,
     references.mend_attachments,
-    bodies.give_shapes,
     free_limits,
 )
-_COMPLETE: tuple[_Step, ...] = (
+# Shapes are assumed before a convention is chosen, and solids converted after: Blender's are read
+# otherwise than the standard's.
+_REST: tuple[_Step, ...] = (
     shapes.convert_tapered,
     structure.drop_empty_bindings,
     structure.give_geometries_content,
@@ -81,12 +86,18 @@ def conform(
     context = Context(twin.getroot(), file=file, only=only, origin=origin)
     context.far_lines = far_lines
     note_version(context, tree.getroot(), version)
-    for step in _UPGRADE if version.startswith("1.4") else ():
+    steps = [*(_UPGRADE if version.startswith("1.4") else ()), *_NAMES]
+    for step in steps:
         step(context)
-    for step in _REPAIR:
+    form_is_right = is_valid(twin)
+    for step in () if form_is_right else _FORM:
         step(context)
+    for step in _REFERENCES:
+        step(context)
+    if not form_is_right:
+        bodies.give_shapes(context)
     translate(context, convention)
-    for step in _COMPLETE:
+    for step in () if form_is_right else _REST:
         step(context)
     context.findings.sort(key=lambda finding: finding.line or 0)
     return twin, context.findings

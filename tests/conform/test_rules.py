@@ -1,0 +1,24 @@
+"""The rules themselves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from colladaphy.conform.rules import RULES
+from colladaphy.findings import STAGES
+
+
+def test_rules_have_codes_of_their_own_and_say_what_to_do() -> None:
+    codes = [rule.code for rule in RULES]
+    assert len(set(codes)) == len(codes)
+    for rule in RULES:
+        assert rule.stage in STAGES
+        assert rule.stage in ("upgrade", "repair", "convention")
+        assert rule.summary
+        assert rule.hint
+
+
+def test_every_rule_has_a_test() -> None:
+    folder = Path(__file__).parent
+    tests = "".join(path.read_text("utf-8") for path in folder.glob("test_*.py"))
+    assert [rule.code for rule in RULES if f'"{rule.code}"' not in tests] == []
