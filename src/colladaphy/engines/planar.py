@@ -9,19 +9,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.engines.outlines import HalfPlane, Outline, outlines
-from colladaphy.engines.rules import MASS, MOVING_PLANE, NOT_PLANAR
+from colladaphy.engines.rules import MASS, MOVING_PLANE, NOT_PLANAR, SIZE
 from colladaphy.findings import Finding, Rule
 from colladaphy.world import Body, Kind, rotations
 
 if TYPE_CHECKING:
     from colladaphy.world import World
 
-__all__ = ["TOLERANCE", "Frame", "Planarity", "analyse"]
+__all__ = ["LARGEST", "SMALLEST", "TOLERANCE", "Frame", "Planarity", "analyse"]
 
 Floats = NDArray[np.float64]
 
 TOLERANCE = 1e-6
 """Angles, and lengths and speeds against the largest of the scene, that count as zero."""
+
+SMALLEST, LARGEST = 1e-50, 1e50
+"""Sizes and masses that the arithmetic of an engine can be trusted with."""
 
 _MOST = 10  # bodies named for one reason; the rest are counted
 
@@ -80,6 +83,13 @@ class Planarity:
 def analyse(world: World) -> Planarity:
     """The plane in which `world` moves, or what speaks against the one that fits best."""
     moving = np.flatnonzero(~world.fixed)
+    beyond = _beyond(world, moving)
+    if beyond:
+        return Planarity(Frame.across(np.array([0.0, 1.0, 0.0])), beyond, {}, 1.0)
+    if not len(moving):
+        # Nothing moves, and nothing collides.
+        nothing: dict[int, list[Outline]] = {sid: [] for sid in world.sids.tolist()}
+        return Planarity(Frame.across(np.array([0.0, 1.0, 0.0])), [], nothing, 1.0)
     state = _State(world, moving)
     best: tuple[int, Floats] | None = None
     for normal in _candidates(state):
@@ -92,6 +102,45 @@ def analyse(world: World) -> Planarity:
                 return found
     assert best is not None
     return _outlined(state, best[1])
+
+
+def _beyond(world: World, moving: NDArray[Any]) -> list[Finding]:
+    """Refusals of bodies whose numbers are too large or too small to calculate with."""
+    findings: list[Finding] = []
+    with np.errstate(all="ignore"):
+        large = np.zeros(len(world.bodies), dtype=np.bool_)
+        for column in (world.positions, world.dimensions):
+            large |= _too_large(column)
+        for column in (
+            world.linear_velocities, world.angular_velocities, world.forces, world.torques,
+            world.inertias,
+        ):  # fmt: skip
+            large[moving] |= _too_large(column[moving])
+        large[moving] |= ~_in_range(world.masses[moving]) & (world.masses[moving] > 0)
+        large |= ((world.dimensions != 0) & ~_in_range(world.dimensions)).any(axis=1) & (
+            world.kinds != Kind.PLANE
+        )
+        bodies = [world.bodies[row] for row in np.flatnonzero(large).tolist()]
+        members = world.member_columns
+        inner = _too_large(members.positions) | _too_large(members.dimensions)
+        inner |= ((members.dimensions != 0) & ~_in_range(members.dimensions)).any(axis=1) & (
+            members.kinds != Kind.PLANE
+        )
+        bodies += [world.body(sid) for sid in members.sids[inner].tolist()]
+        findings += _named(SIZE, "A number is too large or too small for the engine", bodies)
+        if bool(_too_large(world.gravity[None])[0]):
+            findings.append(SIZE.at(message=f"Gravity is {world.gravity.tolist()}."))
+    return findings
+
+
+def _too_large(values: Floats) -> NDArray[np.bool_]:
+    good = np.abs(values) <= LARGEST
+    return np.asarray(~good.all(axis=tuple(range(1, values.ndim))))
+
+
+def _in_range(values: Floats) -> NDArray[np.bool_]:
+    size = np.abs(values)
+    return np.asarray((size >= SMALLEST) & (size <= LARGEST))
 
 
 class _State:
@@ -117,7 +166,7 @@ class _State:
     def offset(self, normal: Floats) -> float:
         """Where most centres are along `normal`, that of one of the bodies."""
         heights = np.sort(_along(self.positions, normal))
-        return float(heights[len(heights) // 2]) if len(heights) else 0.0
+        return float(heights[len(heights) // 2])
 
     def reasons(self, normal: Floats) -> list[tuple[str, NDArray[Any]]]:
         """What speaks against a plane: a text, and the places of the bodies that it is true of."""

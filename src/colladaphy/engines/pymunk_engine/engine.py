@@ -16,7 +16,7 @@ from colladaphy.engines.pymunk_engine.contacts import contacts_of
 from colladaphy.engines.pymunk_engine.links import Link, plan
 from colladaphy.engines.pymunk_engine.pairs import materials_of
 from colladaphy.engines.pymunk_engine.space import Model, build
-from colladaphy.engines.rules import DIVERGED, FRICTIONS, PLANE_FINITE, refuse
+from colladaphy.engines.rules import DIVERGED, FRICTIONS, PLANE_FINITE, SIZE, refuse
 from colladaphy.engines.state import pack
 from colladaphy.errors import EngineError
 from colladaphy.findings import Finding, Severity
@@ -134,7 +134,9 @@ def _check(world: World) -> tuple[Planarity, list[Link], list[Finding]]:
     """The plane of a World, its joints there, and everything to be said about both."""
     planarity = analyse(world)
     findings = list(planarity.findings)
-    links = []
+    links: list[Link] = []
+    if any(finding.code == SIZE.code for finding in findings):
+        return planarity, links, findings
     for joint in world.joints:
         if joint.enabled:
             link = plan(joint, planarity.frame, planarity.size)

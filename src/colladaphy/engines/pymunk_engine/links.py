@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.engines.planar import TOLERANCE, Frame
-from colladaphy.engines.rules import JOINT_INERT, JOINT_LIMITS, NOT_PLANAR
+from colladaphy.engines.planar import LARGEST, TOLERANCE, Frame
+from colladaphy.engines.rules import JOINT_INERT, JOINT_LIMITS, NOT_PLANAR, SIZE
 from colladaphy.findings import Finding
 from colladaphy.world import rotations
 
@@ -53,6 +53,9 @@ def plan(joint: Joint, frame: Frame, size: float) -> Link:
     if all(body is None or body.fixed for body in (first, second)):
         link.findings.append(JOINT_INERT.at(message=f"{joint!r} binds bodies that cannot move."))
         return link
+    if _beyond(joint):
+        link.findings.append(SIZE.at(message=f"{joint!r} has numbers out of the engine's range."))
+        return link
     points, turns, centers = [], [], []
     for body, (position, orientation) in ((first, joint.frame1), (second, joint.frame2)):
         center = np.zeros(3) if body is None else body.position
@@ -62,6 +65,14 @@ def plan(joint: Joint, frame: Frame, size: float) -> Link:
         centers.append(center)
     _Planner(joint, frame, size, link, points, turns, centers).run()
     return link
+
+
+def _beyond(joint: Joint) -> bool:
+    numbers = np.concatenate([
+        joint.frame1[0], joint.frame2[0], joint.linear_spring, joint.angular_spring,
+        joint.linear_min, joint.linear_max, joint.angular_min, joint.angular_max,
+    ])  # fmt: skip
+    return bool(np.any(np.abs(numbers[np.isfinite(numbers)]) > LARGEST))
 
 
 class _Planner:
