@@ -23,6 +23,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class ChannelType:
+    """The type channel_type."""
+
     class Meta:
         name = "channel_type"
 
@@ -40,6 +42,8 @@ class ChannelType:
 
 
 class SamplerBehaviorEnum(Enum):
+    """The values of sampler_behavior_enum."""
+
     CONSTANT = "CONSTANT"
     CYCLE = "CYCLE"
     CYCLE_RELATIVE = "CYCLE_RELATIVE"
@@ -50,6 +54,8 @@ class SamplerBehaviorEnum(Enum):
 
 @dataclass(slots=True, kw_only=True)
 class AnimationClipType(Stated):
+    """The type animation_clip_type."""
+
     class Meta:
         name = "animation_clip_type"
 
@@ -110,6 +116,8 @@ class AnimationClipType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class SamplerType:
+    """The type sampler_type."""
+
     class Meta:
         name = "sampler_type"
 
@@ -143,6 +151,8 @@ class SamplerType:
 
 @dataclass(slots=True, kw_only=True)
 class AnimationType:
+    """The type animation_type."""
+
     class Meta:
         name = "animation_type"
 
@@ -204,6 +214,8 @@ class AnimationType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryAnimationClipsType:
+    """The type library_animation_clips_type."""
+
     class Meta:
         name = "library_animation_clips_type"
 
@@ -245,6 +257,8 @@ class LibraryAnimationClipsType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryAnimationsType:
+    """The type library_animations_type."""
+
     class Meta:
         name = "library_animations_type"
 

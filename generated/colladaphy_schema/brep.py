@@ -22,6 +22,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class Axis:
+    """A type without a name in the schema: axis."""
+
     class Meta:
         global_type = False
 
@@ -36,6 +38,8 @@ class Axis:
 
 @dataclass(slots=True, kw_only=True)
 class Direction:
+    """A type without a name in the schema: direction."""
+
     class Meta:
         global_type = False
 
@@ -50,6 +54,8 @@ class Direction:
 
 @dataclass(slots=True, kw_only=True)
 class OrientType:
+    """The type orient_type."""
+
     class Meta:
         name = "orient_type"
 
@@ -64,6 +70,8 @@ class OrientType:
 
 @dataclass(slots=True, kw_only=True)
 class Origin:
+    """A type without a name in the schema: origin."""
+
     class Meta:
         global_type = False
 
@@ -78,6 +86,8 @@ class Origin:
 
 @dataclass(slots=True, kw_only=True)
 class OriginType:
+    """The type origin_type."""
+
     class Meta:
         name = "origin_type"
 
@@ -92,6 +102,8 @@ class OriginType:
 
 @dataclass(slots=True, kw_only=True)
 class CircleType:
+    """The type circle_type."""
+
     class Meta:
         name = "circle_type"
 
@@ -112,6 +124,8 @@ class CircleType:
 
 @dataclass(slots=True, kw_only=True)
 class ConeType:
+    """The type cone_type."""
+
     class Meta:
         name = "cone_type"
 
@@ -138,6 +152,8 @@ class ConeType:
 
 @dataclass(slots=True, kw_only=True)
 class EdgesType:
+    """The type edges_type."""
+
     class Meta:
         name = "edges_type"
 
@@ -183,6 +199,8 @@ class EdgesType:
 
 @dataclass(slots=True, kw_only=True)
 class EllipseType:
+    """The type ellipse_type."""
+
     class Meta:
         name = "ellipse_type"
 
@@ -206,6 +224,8 @@ class EllipseType:
 
 @dataclass(slots=True, kw_only=True)
 class FacesType:
+    """The type faces_type."""
+
     class Meta:
         name = "faces_type"
 
@@ -259,6 +279,8 @@ class FacesType:
 
 @dataclass(slots=True, kw_only=True)
 class HyperbolaType:
+    """The type hyperbola_type."""
+
     class Meta:
         name = "hyperbola_type"
 
@@ -282,6 +304,8 @@ class HyperbolaType:
 
 @dataclass(slots=True, kw_only=True)
 class LineType:
+    """The type line_type."""
+
     class Meta:
         name = "line_type"
 
@@ -314,6 +338,8 @@ class LineType:
 
 @dataclass(slots=True, kw_only=True)
 class NurbsSurfaceTypeControlVertices:
+    """A type without a name in the schema: nurbs_surface_type_control_vertices."""
+
     class Meta:
         global_type = False
 
@@ -336,6 +362,8 @@ class NurbsSurfaceTypeControlVertices:
 
 @dataclass(slots=True, kw_only=True)
 class NurbsTypeControlVertices:
+    """A type without a name in the schema: nurbs_type_control_vertices."""
+
     class Meta:
         global_type = False
 
@@ -358,6 +386,8 @@ class NurbsTypeControlVertices:
 
 @dataclass(slots=True, kw_only=True)
 class ParabolaType:
+    """The type parabola_type."""
+
     class Meta:
         name = "parabola_type"
 
@@ -378,6 +408,8 @@ class ParabolaType:
 
 @dataclass(slots=True, kw_only=True)
 class PcurvesType:
+    """The type pcurves_type."""
+
     class Meta:
         name = "pcurves_type"
 
@@ -431,6 +463,8 @@ class PcurvesType:
 
 @dataclass(slots=True, kw_only=True)
 class ShellsType:
+    """The type shells_type."""
+
     class Meta:
         name = "shells_type"
 
@@ -484,6 +518,8 @@ class ShellsType:
 
 @dataclass(slots=True, kw_only=True)
 class SolidsType:
+    """The type solids_type."""
+
     class Meta:
         name = "solids_type"
 
@@ -537,6 +573,8 @@ class SolidsType:
 
 @dataclass(slots=True, kw_only=True)
 class SurfaceTypeCylinder:
+    """A type without a name in the schema: surface_type_cylinder."""
+
     class Meta:
         global_type = False
 
@@ -557,6 +595,8 @@ class SurfaceTypeCylinder:
 
 @dataclass(slots=True, kw_only=True)
 class TorusType:
+    """The type torus_type."""
+
     class Meta:
         name = "torus_type"
 
@@ -580,6 +620,8 @@ class TorusType:
 
 @dataclass(slots=True, kw_only=True)
 class WiresType:
+    """The type wires_type."""
+
     class Meta:
         name = "wires_type"
 
@@ -633,6 +675,8 @@ class WiresType:
 
 @dataclass(slots=True, kw_only=True)
 class NurbsSurfaceType(Stated):
+    """The type nurbs_surface_type."""
+
     class Meta:
         name = "nurbs_surface_type"
 
@@ -683,6 +727,8 @@ class NurbsSurfaceType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class NurbsType(Stated):
+    """The type nurbs_type."""
+
     class Meta:
         name = "nurbs_type"
 
@@ -722,6 +768,8 @@ class NurbsType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CurveType:
+    """The type curve_type."""
+
     class Meta:
         name = "curve_type"
 
@@ -795,6 +843,8 @@ class CurveType:
 
 @dataclass(slots=True, kw_only=True)
 class CurvesType:
+    """The type curves_type."""
+
     class Meta:
         name = "curves_type"
 
@@ -817,6 +867,8 @@ class CurvesType:
 
 @dataclass(slots=True, kw_only=True)
 class SurfaceCurvesType:
+    """The type surface_curves_type."""
+
     class Meta:
         name = "surface_curves_type"
 
@@ -839,6 +891,8 @@ class SurfaceCurvesType:
 
 @dataclass(slots=True, kw_only=True)
 class SweptSurfaceType:
+    """The type swept_surface_type."""
+
     class Meta:
         name = "swept_surface_type"
 
@@ -883,6 +937,8 @@ class SweptSurfaceType:
 
 @dataclass(slots=True, kw_only=True)
 class SurfaceType:
+    """The type surface_type."""
+
     class Meta:
         name = "surface_type"
 
@@ -968,6 +1024,8 @@ class SurfaceType:
 
 @dataclass(slots=True, kw_only=True)
 class SurfacesType:
+    """The type surfaces_type."""
+
     class Meta:
         name = "surfaces_type"
 
@@ -990,6 +1048,8 @@ class SurfacesType:
 
 @dataclass(slots=True, kw_only=True)
 class BrepType:
+    """The type brep_type."""
+
     class Meta:
         name = "brep_type"
 

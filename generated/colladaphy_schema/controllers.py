@@ -21,12 +21,16 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 
 class MorphMethodEnum(Enum):
+    """The values of morph_method_enum."""
+
     NORMALIZED = "NORMALIZED"
     RELATIVE = "RELATIVE"
 
 
 @dataclass(slots=True, kw_only=True)
 class MorphTypeTargets:
+    """A type without a name in the schema: morph_type_targets."""
+
     class Meta:
         global_type = False
 
@@ -49,6 +53,8 @@ class MorphTypeTargets:
 
 @dataclass(slots=True, kw_only=True)
 class SkinTypeJoints:
+    """A type without a name in the schema: skin_type_joints."""
+
     class Meta:
         global_type = False
 
@@ -71,6 +77,8 @@ class SkinTypeJoints:
 
 @dataclass(slots=True, kw_only=True)
 class SkinTypeVertexWeights(Stated):
+    """A type without a name in the schema: skin_type_vertex_weights."""
+
     class Meta:
         global_type = False
 
@@ -114,6 +122,8 @@ class SkinTypeVertexWeights(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class MorphType(Stated):
+    """The type morph_type."""
+
     class Meta:
         name = "morph_type"
 
@@ -154,6 +164,8 @@ class MorphType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class SkinType(Stated):
+    """The type skin_type."""
+
     class Meta:
         name = "skin_type"
 
@@ -203,6 +215,8 @@ class SkinType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ControllerType:
+    """The type controller_type."""
+
     class Meta:
         name = "controller_type"
 
@@ -254,6 +268,8 @@ class ControllerType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryControllersType:
+    """The type library_controllers_type."""
+
     class Meta:
         name = "library_controllers_type"
 

@@ -13,12 +13,16 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 
 class AltitudeModeEnum(Enum):
+    """The values of altitude_mode_enum."""
+
     ABSOLUTE = "absolute"
     RELATIVE_TO_GROUND = "relativeToGround"
 
 
 @dataclass(slots=True, kw_only=True)
 class AssetTypeContributor:
+    """A type without a name in the schema: asset_type_contributor."""
+
     class Meta:
         global_type = False
 
@@ -76,6 +80,8 @@ class AssetTypeContributor:
 
 @dataclass(slots=True, kw_only=True)
 class AssetTypeUnit(Stated):
+    """A type without a name in the schema: asset_type_unit."""
+
     class Meta:
         global_type = False
 
@@ -95,6 +101,8 @@ class AssetTypeUnit(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class BoolArrayType:
+    """The type bool_array_type."""
+
     class Meta:
         name = "bool_array_type"
 
@@ -125,6 +133,8 @@ class BoolArrayType:
 
 @dataclass(slots=True, kw_only=True)
 class FloatArrayType(Stated):
+    """The type float_array_type."""
+
     class Meta:
         name = "float_array_type"
 
@@ -171,6 +181,8 @@ class FloatArrayType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class IdrefArrayType:
+    """The type idref_array_type."""
+
     class Meta:
         name = "idref_array_type"
 
@@ -201,6 +213,8 @@ class IdrefArrayType:
 
 @dataclass(slots=True, kw_only=True)
 class InputGlobalType:
+    """The type input_global_type."""
+
     class Meta:
         name = "input_global_type"
 
@@ -218,6 +232,8 @@ class InputGlobalType:
 
 @dataclass(slots=True, kw_only=True)
 class InputLocalOffsetType:
+    """The type input_local_offset_type."""
+
     class Meta:
         name = "input_local_offset_type"
 
@@ -247,6 +263,8 @@ class InputLocalOffsetType:
 
 @dataclass(slots=True, kw_only=True)
 class InputLocalType:
+    """The type input_local_type."""
+
     class Meta:
         name = "input_local_type"
 
@@ -265,6 +283,8 @@ class InputLocalType:
 
 @dataclass(slots=True, kw_only=True)
 class IntArrayType(Stated):
+    """The type int_array_type."""
+
     class Meta:
         name = "int_array_type"
 
@@ -309,6 +329,8 @@ class IntArrayType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class NameArrayType:
+    """The type name_array_type."""
+
     class Meta:
         name = "name_array_type"
 
@@ -339,6 +361,8 @@ class NameArrayType:
 
 @dataclass(slots=True, kw_only=True)
 class PType:
+    """The type p_type."""
+
     class Meta:
         name = "p_type"
 
@@ -352,6 +376,8 @@ class PType:
 
 @dataclass(slots=True, kw_only=True)
 class ParamType:
+    """The type param_type."""
+
     class Meta:
         name = "param_type"
 
@@ -384,6 +410,8 @@ class ParamType:
 
 @dataclass(slots=True, kw_only=True)
 class SidrefArrayType:
+    """The type sidref_array_type."""
+
     class Meta:
         name = "sidref_array_type"
 
@@ -415,6 +443,8 @@ class SidrefArrayType:
 
 @dataclass(slots=True, kw_only=True)
 class TargetableFloat3Type:
+    """The type targetable_float3_type."""
+
     class Meta:
         name = "targetable_float3_type"
 
@@ -435,6 +465,8 @@ class TargetableFloat3Type:
 
 @dataclass(slots=True, kw_only=True)
 class TargetableFloat4Type:
+    """The type targetable_float4_type."""
+
     class Meta:
         name = "targetable_float4_type"
 
@@ -455,6 +487,8 @@ class TargetableFloat4Type:
 
 @dataclass(slots=True, kw_only=True)
 class TargetableFloatType:
+    """The type targetable_float_type."""
+
     class Meta:
         name = "targetable_float_type"
 
@@ -469,6 +503,8 @@ class TargetableFloatType:
 
 @dataclass(slots=True, kw_only=True)
 class TechniqueType:
+    """The type technique_type."""
+
     class Meta:
         name = "technique_type"
 
@@ -488,6 +524,8 @@ class TechniqueType:
 
 @dataclass(slots=True, kw_only=True)
 class TokenArrayType:
+    """The type token_array_type."""
+
     class Meta:
         name = "token_array_type"
 
@@ -517,6 +555,8 @@ class TokenArrayType:
 
 
 class UpAxisEnum(Enum):
+    """The values of up_axis_enum."""
+
     X_UP = "X_UP"
     Y_UP = "Y_UP"
     Z_UP = "Z_UP"
@@ -524,6 +564,8 @@ class UpAxisEnum(Enum):
 
 @dataclass(slots=True, kw_only=True)
 class AccessorType(Stated):
+    """The type accessor_type."""
+
     class Meta:
         name = "accessor_type"
 
@@ -560,6 +602,8 @@ class AccessorType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class AssetTypeCoverageGeographicLocationAltitude(Stated):
+    """A type without a name in the schema: asset_type_coverage_geographic_location_altitude."""
+
     class Meta:
         global_type = False
 
@@ -574,6 +618,8 @@ class AssetTypeCoverageGeographicLocationAltitude(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ExtraType:
+    """The type extra_type."""
+
     class Meta:
         name = "extra_type"
 
@@ -615,18 +661,24 @@ class ExtraType:
 
 @dataclass(slots=True, kw_only=True)
 class RotateType(TargetableFloat4Type):
+    """The type rotate_type."""
+
     class Meta:
         name = "rotate_type"
 
 
 @dataclass(slots=True, kw_only=True)
 class TranslateType(TargetableFloat3Type):
+    """The type translate_type."""
+
     class Meta:
         name = "translate_type"
 
 
 @dataclass(slots=True, kw_only=True)
 class AssetTypeCoverageGeographicLocation:
+    """A type without a name in the schema: asset_type_coverage_geographic_location."""
+
     class Meta:
         global_type = False
 
@@ -652,6 +704,8 @@ class AssetTypeCoverageGeographicLocation:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceWithExtraType:
+    """The type instance_with_extra_type."""
+
     class Meta:
         name = "instance_with_extra_type"
 
@@ -683,6 +737,8 @@ class InstanceWithExtraType:
 
 @dataclass(slots=True, kw_only=True)
 class SourceTypeTechniqueCommon:
+    """A type without a name in the schema: source_type_technique_common."""
+
     class Meta:
         global_type = False
 
@@ -696,6 +752,8 @@ class SourceTypeTechniqueCommon:
 
 @dataclass(slots=True, kw_only=True)
 class AssetTypeCoverage:
+    """A type without a name in the schema: asset_type_coverage."""
+
     class Meta:
         global_type = False
 
@@ -710,6 +768,8 @@ class AssetTypeCoverage:
 
 @dataclass(slots=True, kw_only=True)
 class AssetType:
+    """The type asset_type."""
+
     class Meta:
         name = "asset_type"
 
@@ -792,6 +852,8 @@ class AssetType:
 
 @dataclass(slots=True, kw_only=True)
 class SourceType:
+    """The type source_type."""
+
     class Meta:
         name = "source_type"
 

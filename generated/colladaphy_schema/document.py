@@ -38,11 +38,15 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 
 class VersionEnum(Enum):
+    """The values of version_enum."""
+
     VALUE_1_5_0 = "1.5.0"
 
 
 @dataclass(slots=True, kw_only=True)
 class ColladaScene:
+    """A type without a name in the schema: COLLADA_scene."""
+
     class Meta:
         global_type = False
 
@@ -78,6 +82,8 @@ class ColladaScene:
 
 @dataclass(slots=True, kw_only=True)
 class Collada:
+    """The element COLLADA."""
+
     class Meta:
         name = "COLLADA"
         namespace = "http://www.collada.org/2008/03/COLLADASchema"

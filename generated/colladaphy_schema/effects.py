@@ -23,6 +23,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class EffectType:
+    """The type effect_type."""
+
     class Meta:
         name = "effect_type"
 
@@ -114,6 +116,8 @@ class EffectType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryEffectsType:
+    """The type library_effects_type."""
+
     class Meta:
         name = "library_effects_type"
 

@@ -15,6 +15,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class FormulaNewparamType:
+    """The type formula_newparam_type."""
+
     class Meta:
         name = "formula_newparam_type"
 
@@ -57,6 +59,8 @@ class FormulaNewparamType:
 
 @dataclass(slots=True, kw_only=True)
 class FormulaSetparamType:
+    """The type formula_setparam_type."""
+
     class Meta:
         name = "formula_setparam_type"
 
@@ -103,6 +107,8 @@ class FormulaSetparamType:
 
 @dataclass(slots=True, kw_only=True)
 class FormulaTechniqueType:
+    """The type formula_technique_type."""
+
     class Meta:
         name = "formula_technique_type"
 
@@ -116,6 +122,8 @@ class FormulaTechniqueType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceFormulaType:
+    """The type instance_formula_type."""
+
     class Meta:
         name = "instance_formula_type"
 
@@ -148,6 +156,8 @@ class InstanceFormulaType:
 
 @dataclass(slots=True, kw_only=True)
 class FormulaType:
+    """The type formula_type."""
+
     class Meta:
         name = "formula_type"
 
@@ -199,6 +209,8 @@ class FormulaType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryFormulasType:
+    """The type library_formulas_type."""
+
     class Meta:
         name = "library_formulas_type"
 

@@ -169,6 +169,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class Bool2X1:
+    """A type without a name in the schema: bool2x1."""
+
     class Meta:
         global_type = False
 
@@ -183,6 +185,8 @@ class Bool2X1:
 
 @dataclass(slots=True, kw_only=True)
 class Bool2X2:
+    """A type without a name in the schema: bool2x2."""
+
     class Meta:
         global_type = False
 
@@ -197,6 +201,8 @@ class Bool2X2:
 
 @dataclass(slots=True, kw_only=True)
 class Bool2X3:
+    """A type without a name in the schema: bool2x3."""
+
     class Meta:
         global_type = False
 
@@ -211,6 +217,8 @@ class Bool2X3:
 
 @dataclass(slots=True, kw_only=True)
 class Bool2X4:
+    """A type without a name in the schema: bool2x4."""
+
     class Meta:
         global_type = False
 
@@ -225,6 +233,8 @@ class Bool2X4:
 
 @dataclass(slots=True, kw_only=True)
 class Bool3X1:
+    """A type without a name in the schema: bool3x1."""
+
     class Meta:
         global_type = False
 
@@ -239,6 +249,8 @@ class Bool3X1:
 
 @dataclass(slots=True, kw_only=True)
 class Bool3X2:
+    """A type without a name in the schema: bool3x2."""
+
     class Meta:
         global_type = False
 
@@ -253,6 +265,8 @@ class Bool3X2:
 
 @dataclass(slots=True, kw_only=True)
 class Bool3X3:
+    """A type without a name in the schema: bool3x3."""
+
     class Meta:
         global_type = False
 
@@ -267,6 +281,8 @@ class Bool3X3:
 
 @dataclass(slots=True, kw_only=True)
 class Bool3X4:
+    """A type without a name in the schema: bool3x4."""
+
     class Meta:
         global_type = False
 
@@ -281,6 +297,8 @@ class Bool3X4:
 
 @dataclass(slots=True, kw_only=True)
 class Bool4X1:
+    """A type without a name in the schema: bool4x1."""
+
     class Meta:
         global_type = False
 
@@ -295,6 +313,8 @@ class Bool4X1:
 
 @dataclass(slots=True, kw_only=True)
 class Bool4X2:
+    """A type without a name in the schema: bool4x2."""
+
     class Meta:
         global_type = False
 
@@ -309,6 +329,8 @@ class Bool4X2:
 
 @dataclass(slots=True, kw_only=True)
 class Bool4X3:
+    """A type without a name in the schema: bool4x3."""
+
     class Meta:
         global_type = False
 
@@ -323,6 +345,8 @@ class Bool4X3:
 
 @dataclass(slots=True, kw_only=True)
 class Bool4X4:
+    """A type without a name in the schema: bool4x4."""
+
     class Meta:
         global_type = False
 
@@ -337,6 +361,8 @@ class Bool4X4:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeProgramShaderBindUniformParam:
+    """A type without a name in the schema: cg_pass_type_program_shader_bind_uniform_param."""
+
     class Meta:
         global_type = False
 
@@ -349,6 +375,8 @@ class CgPassTypeProgramShaderBindUniformParam:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStates:
+    """A type without a name in the schema: cg_pass_type_states."""
+
     class Meta:
         global_type = False
 
@@ -989,6 +1017,8 @@ class CgPassTypeStates:
 
 @dataclass(slots=True, kw_only=True)
 class CgUserType:
+    """The type cg_user_type."""
+
     class Meta:
         name = "cg_user_type"
 
@@ -1014,6 +1044,8 @@ class CgUserType:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed:
+    """A type without a name in the schema: fixed."""
+
     class Meta:
         global_type = False
 
@@ -1022,6 +1054,8 @@ class Fixed:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed2:
+    """A type without a name in the schema: fixed2."""
+
     class Meta:
         global_type = False
 
@@ -1036,6 +1070,8 @@ class Fixed2:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed2X1:
+    """A type without a name in the schema: fixed2x1."""
+
     class Meta:
         global_type = False
 
@@ -1050,6 +1086,8 @@ class Fixed2X1:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed2X2:
+    """A type without a name in the schema: fixed2x2."""
+
     class Meta:
         global_type = False
 
@@ -1064,6 +1102,8 @@ class Fixed2X2:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed2X3:
+    """A type without a name in the schema: fixed2x3."""
+
     class Meta:
         global_type = False
 
@@ -1078,6 +1118,8 @@ class Fixed2X3:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed2X4:
+    """A type without a name in the schema: fixed2x4."""
+
     class Meta:
         global_type = False
 
@@ -1092,6 +1134,8 @@ class Fixed2X4:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed3:
+    """A type without a name in the schema: fixed3."""
+
     class Meta:
         global_type = False
 
@@ -1106,6 +1150,8 @@ class Fixed3:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed3X1:
+    """A type without a name in the schema: fixed3x1."""
+
     class Meta:
         global_type = False
 
@@ -1120,6 +1166,8 @@ class Fixed3X1:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed3X2:
+    """A type without a name in the schema: fixed3x2."""
+
     class Meta:
         global_type = False
 
@@ -1134,6 +1182,8 @@ class Fixed3X2:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed3X3:
+    """A type without a name in the schema: fixed3x3."""
+
     class Meta:
         global_type = False
 
@@ -1148,6 +1198,8 @@ class Fixed3X3:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed3X4:
+    """A type without a name in the schema: fixed3x4."""
+
     class Meta:
         global_type = False
 
@@ -1162,6 +1214,8 @@ class Fixed3X4:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed4:
+    """A type without a name in the schema: fixed4."""
+
     class Meta:
         global_type = False
 
@@ -1176,6 +1230,8 @@ class Fixed4:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed4X1:
+    """A type without a name in the schema: fixed4x1."""
+
     class Meta:
         global_type = False
 
@@ -1190,6 +1246,8 @@ class Fixed4X1:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed4X2:
+    """A type without a name in the schema: fixed4x2."""
+
     class Meta:
         global_type = False
 
@@ -1204,6 +1262,8 @@ class Fixed4X2:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed4X3:
+    """A type without a name in the schema: fixed4x3."""
+
     class Meta:
         global_type = False
 
@@ -1218,6 +1278,8 @@ class Fixed4X3:
 
 @dataclass(slots=True, kw_only=True)
 class Fixed4X4:
+    """A type without a name in the schema: fixed4x4."""
+
     class Meta:
         global_type = False
 
@@ -1232,6 +1294,8 @@ class Fixed4X4:
 
 @dataclass(slots=True, kw_only=True)
 class Half:
+    """A type without a name in the schema: half."""
+
     class Meta:
         global_type = False
 
@@ -1240,6 +1304,8 @@ class Half:
 
 @dataclass(slots=True, kw_only=True)
 class Half2:
+    """A type without a name in the schema: half2."""
+
     class Meta:
         global_type = False
 
@@ -1254,6 +1320,8 @@ class Half2:
 
 @dataclass(slots=True, kw_only=True)
 class Half2X1:
+    """A type without a name in the schema: half2x1."""
+
     class Meta:
         global_type = False
 
@@ -1268,6 +1336,8 @@ class Half2X1:
 
 @dataclass(slots=True, kw_only=True)
 class Half2X2:
+    """A type without a name in the schema: half2x2."""
+
     class Meta:
         global_type = False
 
@@ -1282,6 +1352,8 @@ class Half2X2:
 
 @dataclass(slots=True, kw_only=True)
 class Half2X3:
+    """A type without a name in the schema: half2x3."""
+
     class Meta:
         global_type = False
 
@@ -1296,6 +1368,8 @@ class Half2X3:
 
 @dataclass(slots=True, kw_only=True)
 class Half2X4:
+    """A type without a name in the schema: half2x4."""
+
     class Meta:
         global_type = False
 
@@ -1310,6 +1384,8 @@ class Half2X4:
 
 @dataclass(slots=True, kw_only=True)
 class Half3:
+    """A type without a name in the schema: half3."""
+
     class Meta:
         global_type = False
 
@@ -1324,6 +1400,8 @@ class Half3:
 
 @dataclass(slots=True, kw_only=True)
 class Half3X1:
+    """A type without a name in the schema: half3x1."""
+
     class Meta:
         global_type = False
 
@@ -1338,6 +1416,8 @@ class Half3X1:
 
 @dataclass(slots=True, kw_only=True)
 class Half3X2:
+    """A type without a name in the schema: half3x2."""
+
     class Meta:
         global_type = False
 
@@ -1352,6 +1432,8 @@ class Half3X2:
 
 @dataclass(slots=True, kw_only=True)
 class Half3X3:
+    """A type without a name in the schema: half3x3."""
+
     class Meta:
         global_type = False
 
@@ -1366,6 +1448,8 @@ class Half3X3:
 
 @dataclass(slots=True, kw_only=True)
 class Half3X4:
+    """A type without a name in the schema: half3x4."""
+
     class Meta:
         global_type = False
 
@@ -1380,6 +1464,8 @@ class Half3X4:
 
 @dataclass(slots=True, kw_only=True)
 class Half4:
+    """A type without a name in the schema: half4."""
+
     class Meta:
         global_type = False
 
@@ -1394,6 +1480,8 @@ class Half4:
 
 @dataclass(slots=True, kw_only=True)
 class Half4X1:
+    """A type without a name in the schema: half4x1."""
+
     class Meta:
         global_type = False
 
@@ -1408,6 +1496,8 @@ class Half4X1:
 
 @dataclass(slots=True, kw_only=True)
 class Half4X2:
+    """A type without a name in the schema: half4x2."""
+
     class Meta:
         global_type = False
 
@@ -1422,6 +1512,8 @@ class Half4X2:
 
 @dataclass(slots=True, kw_only=True)
 class Half4X3:
+    """A type without a name in the schema: half4x3."""
+
     class Meta:
         global_type = False
 
@@ -1436,6 +1528,8 @@ class Half4X3:
 
 @dataclass(slots=True, kw_only=True)
 class Half4X4:
+    """A type without a name in the schema: half4x4."""
+
     class Meta:
         global_type = False
 
@@ -1450,6 +1544,8 @@ class Half4X4:
 
 @dataclass(slots=True, kw_only=True)
 class Int2X1:
+    """A type without a name in the schema: int2x1."""
+
     class Meta:
         global_type = False
 
@@ -1464,6 +1560,8 @@ class Int2X1:
 
 @dataclass(slots=True, kw_only=True)
 class Int2X2:
+    """A type without a name in the schema: int2x2."""
+
     class Meta:
         global_type = False
 
@@ -1478,6 +1576,8 @@ class Int2X2:
 
 @dataclass(slots=True, kw_only=True)
 class Int2X3:
+    """A type without a name in the schema: int2x3."""
+
     class Meta:
         global_type = False
 
@@ -1492,6 +1592,8 @@ class Int2X3:
 
 @dataclass(slots=True, kw_only=True)
 class Int2X4:
+    """A type without a name in the schema: int2x4."""
+
     class Meta:
         global_type = False
 
@@ -1506,6 +1608,8 @@ class Int2X4:
 
 @dataclass(slots=True, kw_only=True)
 class Int3X1:
+    """A type without a name in the schema: int3x1."""
+
     class Meta:
         global_type = False
 
@@ -1520,6 +1624,8 @@ class Int3X1:
 
 @dataclass(slots=True, kw_only=True)
 class Int3X2:
+    """A type without a name in the schema: int3x2."""
+
     class Meta:
         global_type = False
 
@@ -1534,6 +1640,8 @@ class Int3X2:
 
 @dataclass(slots=True, kw_only=True)
 class Int3X3:
+    """A type without a name in the schema: int3x3."""
+
     class Meta:
         global_type = False
 
@@ -1548,6 +1656,8 @@ class Int3X3:
 
 @dataclass(slots=True, kw_only=True)
 class Int3X4:
+    """A type without a name in the schema: int3x4."""
+
     class Meta:
         global_type = False
 
@@ -1562,6 +1672,8 @@ class Int3X4:
 
 @dataclass(slots=True, kw_only=True)
 class Int4X1:
+    """A type without a name in the schema: int4x1."""
+
     class Meta:
         global_type = False
 
@@ -1576,6 +1688,8 @@ class Int4X1:
 
 @dataclass(slots=True, kw_only=True)
 class Int4X2:
+    """A type without a name in the schema: int4x2."""
+
     class Meta:
         global_type = False
 
@@ -1590,6 +1704,8 @@ class Int4X2:
 
 @dataclass(slots=True, kw_only=True)
 class Int4X3:
+    """A type without a name in the schema: int4x3."""
+
     class Meta:
         global_type = False
 
@@ -1604,6 +1720,8 @@ class Int4X3:
 
 @dataclass(slots=True, kw_only=True)
 class Int4X4:
+    """A type without a name in the schema: int4x4."""
+
     class Meta:
         global_type = False
 
@@ -1618,6 +1736,8 @@ class Int4X4:
 
 @dataclass(slots=True, kw_only=True)
 class CgArrayType(Stated):
+    """The type cg_array_type."""
+
     class Meta:
         name = "cg_array_type"
 
@@ -2185,6 +2305,8 @@ class CgArrayType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeEvaluate:
+    """A type without a name in the schema: cg_pass_type_evaluate."""
+
     class Meta:
         global_type = False
 
@@ -2241,6 +2363,8 @@ class CgPassTypeEvaluate:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeProgramShaderSources(FxSourcesType):
+    """A type without a name in the schema: cg_pass_type_program_shader_sources."""
+
     class Meta:
         global_type = False
 
@@ -2253,6 +2377,8 @@ class CgPassTypeProgramShaderSources(FxSourcesType):
 
 @dataclass(slots=True, kw_only=True)
 class CgNewparamType:
+    """The type cg_newparam_type."""
+
     class Meta:
         name = "cg_newparam_type"
 
@@ -2836,6 +2962,8 @@ class CgNewparamType:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeProgramShaderBindUniform:
+    """A type without a name in the schema: cg_pass_type_program_shader_bind_uniform."""
+
     class Meta:
         global_type = False
 
@@ -3404,6 +3532,8 @@ class CgPassTypeProgramShaderBindUniform:
 
 @dataclass(slots=True, kw_only=True)
 class CgSetparamType:
+    """The type cg_setparam_type."""
+
     class Meta:
         name = "cg_setparam_type"
 
@@ -3966,6 +4096,8 @@ class CgSetparamType:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeProgramShader:
+    """A type without a name in the schema: cg_pass_type_program_shader."""
+
     class Meta:
         global_type = False
 
@@ -3998,6 +4130,8 @@ class CgPassTypeProgramShader:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeProgram:
+    """A type without a name in the schema: cg_pass_type_program."""
+
     class Meta:
         global_type = False
 
@@ -4012,6 +4146,8 @@ class CgPassTypeProgram:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassType:
+    """The type cg_pass_type."""
+
     class Meta:
         name = "cg_pass_type"
 
@@ -4060,6 +4196,8 @@ class CgPassType:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileCgTypeTechnique:
+    """A type without a name in the schema: profile_cg_type_technique."""
+
     class Meta:
         global_type = False
 
@@ -4108,6 +4246,8 @@ class ProfileCgTypeTechnique:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileCgType(Stated):
+    """The type profile_cg_type."""
+
     class Meta:
         name = "profile_cg_type"
 

@@ -44,6 +44,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class FxAnnotateType:
+    """The type fx_annotate_type."""
+
     class Meta:
         name = "fx_annotate_type"
 
@@ -162,6 +164,8 @@ class FxAnnotateType:
 
 @dataclass(slots=True, kw_only=True)
 class FxClearcolorType(Stated):
+    """The type fx_clearcolor_type."""
+
     class Meta:
         name = "fx_clearcolor_type"
 
@@ -182,6 +186,8 @@ class FxClearcolorType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class FxCleardepthType(Stated):
+    """The type fx_cleardepth_type."""
+
     class Meta:
         name = "fx_cleardepth_type"
 
@@ -196,6 +202,8 @@ class FxCleardepthType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class FxClearstencilType(Stated):
+    """The type fx_clearstencil_type."""
+
     class Meta:
         name = "fx_clearstencil_type"
 
@@ -210,6 +218,8 @@ class FxClearstencilType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class FxCodeType:
+    """The type fx_code_type."""
+
     class Meta:
         name = "fx_code_type"
 
@@ -224,6 +234,8 @@ class FxCodeType:
 
 @dataclass(slots=True, kw_only=True)
 class FxCommonColorOrTextureTypeColor:
+    """A type without a name in the schema: fx_common_color_or_texture_type_color."""
+
     class Meta:
         global_type = False
 
@@ -244,6 +256,8 @@ class FxCommonColorOrTextureTypeColor:
 
 @dataclass(slots=True, kw_only=True)
 class FxCommonColorOrTextureTypeParam:
+    """A type without a name in the schema: fx_common_color_or_texture_type_param."""
+
     class Meta:
         global_type = False
 
@@ -256,6 +270,8 @@ class FxCommonColorOrTextureTypeParam:
 
 @dataclass(slots=True, kw_only=True)
 class FxCommonFloatOrParamTypeFloat:
+    """A type without a name in the schema: fx_common_float_or_param_type_float."""
+
     class Meta:
         global_type = False
 
@@ -270,6 +286,8 @@ class FxCommonFloatOrParamTypeFloat:
 
 @dataclass(slots=True, kw_only=True)
 class FxCommonFloatOrParamTypeParam:
+    """A type without a name in the schema: fx_common_float_or_param_type_param."""
+
     class Meta:
         global_type = False
 
@@ -282,6 +300,8 @@ class FxCommonFloatOrParamTypeParam:
 
 @dataclass(slots=True, kw_only=True)
 class FxIncludeType:
+    """The type fx_include_type."""
+
     class Meta:
         name = "fx_include_type"
 
@@ -298,6 +318,8 @@ class FxIncludeType:
 
 
 class FxModifierEnum(Enum):
+    """The values of fx_modifier_enum."""
+
     CONST = "CONST"
     UNIFORM = "UNIFORM"
     VARYING = "VARYING"
@@ -308,6 +330,8 @@ class FxModifierEnum(Enum):
 
 
 class FxOpaqueEnum(Enum):
+    """The values of fx_opaque_enum."""
+
     A_ONE = "A_ONE"
     A_ZERO = "A_ZERO"
     RGB_ONE = "RGB_ONE"
@@ -315,6 +339,8 @@ class FxOpaqueEnum(Enum):
 
 
 class FxPipelineStageEnum(Enum):
+    """The values of fx_pipeline_stage_enum."""
+
     TESSELLATION = "TESSELLATION"
     VERTEX = "VERTEX"
     GEOMETRY = "GEOMETRY"
@@ -323,6 +349,8 @@ class FxPipelineStageEnum(Enum):
 
 @dataclass(slots=True, kw_only=True)
 class FxRendertargetTypeParam:
+    """A type without a name in the schema: fx_rendertarget_type_param."""
+
     class Meta:
         global_type = False
 
@@ -334,23 +362,31 @@ class FxRendertargetTypeParam:
 
 
 class FxSamplerMagFilterEnum(Enum):
+    """The values of fx_sampler_mag_filter_enum."""
+
     NEAREST = "NEAREST"
     LINEAR = "LINEAR"
 
 
 class FxSamplerMinFilterEnum(Enum):
+    """The values of fx_sampler_min_filter_enum."""
+
     NEAREST = "NEAREST"
     LINEAR = "LINEAR"
     ANISOTROPIC = "ANISOTROPIC"
 
 
 class FxSamplerMipFilterEnum(Enum):
+    """The values of fx_sampler_mip_filter_enum."""
+
     NONE = "NONE"
     NEAREST = "NEAREST"
     LINEAR = "LINEAR"
 
 
 class FxSamplerWrapEnum(Enum):
+    """The values of fx_sampler_wrap_enum."""
+
     WRAP = "WRAP"
     CLAMP = "CLAMP"
     BORDER = "BORDER"
@@ -360,6 +396,8 @@ class FxSamplerWrapEnum(Enum):
 
 @dataclass(slots=True, kw_only=True)
 class FxSourcesTypeImport:
+    """A type without a name in the schema: fx_sources_type_import."""
+
     class Meta:
         global_type = False
 
@@ -372,6 +410,8 @@ class FxSourcesTypeImport:
 
 @dataclass(slots=True, kw_only=True)
 class FxTargetTypeBinaryHex:
+    """A type without a name in the schema: fx_target_type_binary_hex."""
+
     class Meta:
         global_type = False
 
@@ -392,6 +432,8 @@ class FxTargetTypeBinaryHex:
 
 @dataclass(slots=True, kw_only=True)
 class FxCommonColorOrTextureTypeTexture:
+    """A type without a name in the schema: fx_common_color_or_texture_type_texture."""
+
     class Meta:
         global_type = False
 
@@ -416,6 +458,8 @@ class FxCommonColorOrTextureTypeTexture:
 
 @dataclass(slots=True, kw_only=True)
 class FxCommonFloatOrParamType:
+    """The type fx_common_float_or_param_type."""
+
     class Meta:
         name = "fx_common_float_or_param_type"
 
@@ -441,6 +485,8 @@ class FxCommonFloatOrParamType:
 
 @dataclass(slots=True, kw_only=True)
 class FxRendertargetType(Stated):
+    """The type fx_rendertarget_type."""
+
     class Meta:
         name = "fx_rendertarget_type"
 
@@ -490,6 +536,8 @@ class FxRendertargetType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class FxSamplerType(Stated):
+    """The type fx_sampler_type."""
+
     class Meta:
         name = "fx_sampler_type"
 
@@ -590,6 +638,8 @@ class FxSamplerType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class FxSourcesType(Stated):
+    """The type fx_sources_type."""
+
     class Meta:
         name = "fx_sources_type"
 
@@ -615,6 +665,8 @@ class FxSourcesType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class FxTargetTypeBinary:
+    """A type without a name in the schema: fx_target_type_binary."""
+
     class Meta:
         global_type = False
 
@@ -640,6 +692,8 @@ class FxTargetTypeBinary:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileBridgeType:
+    """The type profile_bridge_type."""
+
     class Meta:
         name = "profile_bridge_type"
 
@@ -678,12 +732,16 @@ class ProfileBridgeType:
 
 @dataclass(slots=True, kw_only=True)
 class FxColortargetType(FxRendertargetType):
+    """The type fx_colortarget_type."""
+
     class Meta:
         name = "fx_colortarget_type"
 
 
 @dataclass(slots=True, kw_only=True)
 class FxCommonColorOrTextureType(Stated):
+    """The type fx_common_color_or_texture_type."""
+
     class Meta:
         name = "fx_common_color_or_texture_type"
 
@@ -719,12 +777,16 @@ class FxCommonColorOrTextureType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class FxDepthtargetType(FxRendertargetType):
+    """The type fx_depthtarget_type."""
+
     class Meta:
         name = "fx_depthtarget_type"
 
 
 @dataclass(slots=True, kw_only=True)
 class FxSampler1DType(FxSamplerType):
+    """The type fx_sampler1D_type."""
+
     class Meta:
         name = "fx_sampler1D_type"
 
@@ -823,6 +885,8 @@ class FxSampler1DType(FxSamplerType):
 
 @dataclass(slots=True, kw_only=True)
 class FxSampler2DType(FxSamplerType):
+    """The type fx_sampler2D_type."""
+
     class Meta:
         name = "fx_sampler2D_type"
 
@@ -921,6 +985,8 @@ class FxSampler2DType(FxSamplerType):
 
 @dataclass(slots=True, kw_only=True)
 class FxSampler3DType(FxSamplerType):
+    """The type fx_sampler3D_type."""
+
     class Meta:
         name = "fx_sampler3D_type"
 
@@ -1019,6 +1085,8 @@ class FxSampler3DType(FxSamplerType):
 
 @dataclass(slots=True, kw_only=True)
 class FxSamplerCubeType(FxSamplerType):
+    """The type fx_samplerCUBE_type."""
+
     class Meta:
         name = "fx_samplerCUBE_type"
 
@@ -1117,6 +1185,8 @@ class FxSamplerCubeType(FxSamplerType):
 
 @dataclass(slots=True, kw_only=True)
 class FxSamplerDepthType(FxSamplerType):
+    """The type fx_samplerDEPTH_type."""
+
     class Meta:
         name = "fx_samplerDEPTH_type"
 
@@ -1215,6 +1285,8 @@ class FxSamplerDepthType(FxSamplerType):
 
 @dataclass(slots=True, kw_only=True)
 class FxSamplerRectType(FxSamplerType):
+    """The type fx_samplerRECT_type."""
+
     class Meta:
         name = "fx_samplerRECT_type"
 
@@ -1313,12 +1385,16 @@ class FxSamplerRectType(FxSamplerType):
 
 @dataclass(slots=True, kw_only=True)
 class FxStenciltargetType(FxRendertargetType):
+    """The type fx_stenciltarget_type."""
+
     class Meta:
         name = "fx_stenciltarget_type"
 
 
 @dataclass(slots=True, kw_only=True)
 class FxTargetType:
+    """The type fx_target_type."""
+
     class Meta:
         name = "fx_target_type"
 
@@ -1350,6 +1426,8 @@ class FxTargetType:
 
 @dataclass(slots=True, kw_only=True)
 class FxCommonNewparamType:
+    """The type fx_common_newparam_type."""
+
     class Meta:
         name = "fx_common_newparam_type"
 
@@ -1402,6 +1480,8 @@ class FxCommonNewparamType:
 
 @dataclass(slots=True, kw_only=True)
 class FxCommonTransparentType(FxCommonColorOrTextureType):
+    """The type fx_common_transparent_type."""
+
     class Meta:
         name = "fx_common_transparent_type"
 
@@ -1415,6 +1495,8 @@ class FxCommonTransparentType(FxCommonColorOrTextureType):
 
 @dataclass(slots=True, kw_only=True)
 class FxNewparamType:
+    """The type fx_newparam_type."""
+
     class Meta:
         name = "fx_newparam_type"
 
@@ -1644,6 +1726,8 @@ class FxNewparamType:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileCommonTypeTechniqueBlinn:
+    """A type without a name in the schema: profile_common_type_technique_blinn."""
+
     class Meta:
         global_type = False
 
@@ -1721,6 +1805,8 @@ class ProfileCommonTypeTechniqueBlinn:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileCommonTypeTechniqueConstant:
+    """A type without a name in the schema: profile_common_type_technique_constant."""
+
     class Meta:
         global_type = False
 
@@ -1770,6 +1856,8 @@ class ProfileCommonTypeTechniqueConstant:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileCommonTypeTechniqueLambert:
+    """A type without a name in the schema: profile_common_type_technique_lambert."""
+
     class Meta:
         global_type = False
 
@@ -1833,6 +1921,8 @@ class ProfileCommonTypeTechniqueLambert:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileCommonTypeTechniquePhong:
+    """A type without a name in the schema: profile_common_type_technique_phong."""
+
     class Meta:
         global_type = False
 
@@ -1910,6 +2000,8 @@ class ProfileCommonTypeTechniquePhong:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileCommonTypeTechnique:
+    """A type without a name in the schema: profile_common_type_technique."""
+
     class Meta:
         global_type = False
 
@@ -1976,6 +2068,8 @@ class ProfileCommonTypeTechnique:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileCommonType:
+    """The type profile_common_type."""
+
     class Meta:
         name = "profile_common_type"
 

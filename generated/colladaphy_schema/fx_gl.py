@@ -23,6 +23,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesAlphaFuncValue(Stated):
+    """A type without a name in the schema: cg_pass_type_states_alpha_func_value."""
+
     class Meta:
         global_type = False
 
@@ -44,6 +46,8 @@ class CgPassTypeStatesAlphaFuncValue(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesAlphaTestEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_alpha_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -63,6 +67,8 @@ class CgPassTypeStatesAlphaTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendColor(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_color."""
+
     class Meta:
         global_type = False
 
@@ -89,6 +95,8 @@ class CgPassTypeStatesBlendColor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_enable."""
+
     class Meta:
         global_type = False
 
@@ -108,6 +116,8 @@ class CgPassTypeStatesBlendEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesClipPlane(Stated):
+    """A type without a name in the schema: cg_pass_type_states_clip_plane."""
+
     class Meta:
         global_type = False
 
@@ -141,6 +151,8 @@ class CgPassTypeStatesClipPlane(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesClipPlaneEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_clip_plane_enable."""
+
     class Meta:
         global_type = False
 
@@ -167,6 +179,8 @@ class CgPassTypeStatesClipPlaneEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesColorLogicOpEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_color_logic_op_enable."""
+
     class Meta:
         global_type = False
 
@@ -186,6 +200,8 @@ class CgPassTypeStatesColorLogicOpEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesColorMask(Stated):
+    """A type without a name in the schema: cg_pass_type_states_color_mask."""
+
     class Meta:
         global_type = False
 
@@ -212,6 +228,8 @@ class CgPassTypeStatesColorMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesColorMaterialEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_color_material_enable."""
+
     class Meta:
         global_type = False
 
@@ -231,6 +249,8 @@ class CgPassTypeStatesColorMaterialEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesCullFaceEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_cull_face_enable."""
+
     class Meta:
         global_type = False
 
@@ -250,6 +270,8 @@ class CgPassTypeStatesCullFaceEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesDepthBounds(Stated):
+    """A type without a name in the schema: cg_pass_type_states_depth_bounds."""
+
     class Meta:
         global_type = False
 
@@ -271,6 +293,8 @@ class CgPassTypeStatesDepthBounds(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesDepthBoundsEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_depth_bounds_enable."""
+
     class Meta:
         global_type = False
 
@@ -290,6 +314,8 @@ class CgPassTypeStatesDepthBoundsEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesDepthClampEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_depth_clamp_enable."""
+
     class Meta:
         global_type = False
 
@@ -309,6 +335,8 @@ class CgPassTypeStatesDepthClampEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesDepthMask(Stated):
+    """A type without a name in the schema: cg_pass_type_states_depth_mask."""
+
     class Meta:
         global_type = False
 
@@ -328,6 +356,8 @@ class CgPassTypeStatesDepthMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesDepthRange(Stated):
+    """A type without a name in the schema: cg_pass_type_states_depth_range."""
+
     class Meta:
         global_type = False
 
@@ -352,6 +382,8 @@ class CgPassTypeStatesDepthRange(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesDepthTestEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_depth_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -371,6 +403,8 @@ class CgPassTypeStatesDepthTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesDitherEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_dither_enable."""
+
     class Meta:
         global_type = False
 
@@ -390,6 +424,8 @@ class CgPassTypeStatesDitherEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesFogColor(Stated):
+    """A type without a name in the schema: cg_pass_type_states_fog_color."""
+
     class Meta:
         global_type = False
 
@@ -416,6 +452,8 @@ class CgPassTypeStatesFogColor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesFogDensity(Stated):
+    """A type without a name in the schema: cg_pass_type_states_fog_density."""
+
     class Meta:
         global_type = False
 
@@ -435,6 +473,8 @@ class CgPassTypeStatesFogDensity(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesFogEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_fog_enable."""
+
     class Meta:
         global_type = False
 
@@ -454,6 +494,8 @@ class CgPassTypeStatesFogEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesFogEnd(Stated):
+    """A type without a name in the schema: cg_pass_type_states_fog_end."""
+
     class Meta:
         global_type = False
 
@@ -473,6 +515,8 @@ class CgPassTypeStatesFogEnd(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesFogStart(Stated):
+    """A type without a name in the schema: cg_pass_type_states_fog_start."""
+
     class Meta:
         global_type = False
 
@@ -492,6 +536,8 @@ class CgPassTypeStatesFogStart(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightAmbient(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_ambient."""
+
     class Meta:
         global_type = False
 
@@ -524,6 +570,8 @@ class CgPassTypeStatesLightAmbient(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightConstantAttenuation(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_constant_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -549,6 +597,8 @@ class CgPassTypeStatesLightConstantAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightDiffuse(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_diffuse."""
+
     class Meta:
         global_type = False
 
@@ -581,6 +631,8 @@ class CgPassTypeStatesLightDiffuse(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_enable."""
+
     class Meta:
         global_type = False
 
@@ -606,6 +658,8 @@ class CgPassTypeStatesLightEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightLinearAttenuation(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_linear_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -631,6 +685,8 @@ class CgPassTypeStatesLightLinearAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightModelAmbient(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_model_ambient."""
+
     class Meta:
         global_type = False
 
@@ -657,6 +713,8 @@ class CgPassTypeStatesLightModelAmbient(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightModelLocalViewerEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_model_local_viewer_enable."""
+
     class Meta:
         global_type = False
 
@@ -676,6 +734,8 @@ class CgPassTypeStatesLightModelLocalViewerEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightModelTwoSideEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_model_two_side_enable."""
+
     class Meta:
         global_type = False
 
@@ -695,6 +755,8 @@ class CgPassTypeStatesLightModelTwoSideEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightPosition(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_position."""
+
     class Meta:
         global_type = False
 
@@ -727,6 +789,8 @@ class CgPassTypeStatesLightPosition(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightQuadraticAttenuation(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_quadratic_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -752,6 +816,8 @@ class CgPassTypeStatesLightQuadraticAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightSpecular(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_specular."""
+
     class Meta:
         global_type = False
 
@@ -784,6 +850,8 @@ class CgPassTypeStatesLightSpecular(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightSpotCutoff(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_spot_cutoff."""
+
     class Meta:
         global_type = False
 
@@ -809,6 +877,8 @@ class CgPassTypeStatesLightSpotCutoff(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightSpotDirection(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_spot_direction."""
+
     class Meta:
         global_type = False
 
@@ -840,6 +910,8 @@ class CgPassTypeStatesLightSpotDirection(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightSpotExponent(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_spot_exponent."""
+
     class Meta:
         global_type = False
 
@@ -865,6 +937,8 @@ class CgPassTypeStatesLightSpotExponent(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightingEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_lighting_enable."""
+
     class Meta:
         global_type = False
 
@@ -884,6 +958,8 @@ class CgPassTypeStatesLightingEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLineSmoothEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_line_smooth_enable."""
+
     class Meta:
         global_type = False
 
@@ -903,6 +979,8 @@ class CgPassTypeStatesLineSmoothEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLineStipple(Stated):
+    """A type without a name in the schema: cg_pass_type_states_line_stipple."""
+
     class Meta:
         global_type = False
 
@@ -927,6 +1005,8 @@ class CgPassTypeStatesLineStipple(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLineStippleEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_line_stipple_enable."""
+
     class Meta:
         global_type = False
 
@@ -946,6 +1026,8 @@ class CgPassTypeStatesLineStippleEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLineWidth(Stated):
+    """A type without a name in the schema: cg_pass_type_states_line_width."""
+
     class Meta:
         global_type = False
 
@@ -965,6 +1047,8 @@ class CgPassTypeStatesLineWidth(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLogicOpEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_logic_op_enable."""
+
     class Meta:
         global_type = False
 
@@ -984,6 +1068,8 @@ class CgPassTypeStatesLogicOpEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesMaterialAmbient(Stated):
+    """A type without a name in the schema: cg_pass_type_states_material_ambient."""
+
     class Meta:
         global_type = False
 
@@ -1010,6 +1096,8 @@ class CgPassTypeStatesMaterialAmbient(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesMaterialDiffuse(Stated):
+    """A type without a name in the schema: cg_pass_type_states_material_diffuse."""
+
     class Meta:
         global_type = False
 
@@ -1036,6 +1124,8 @@ class CgPassTypeStatesMaterialDiffuse(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesMaterialEmission(Stated):
+    """A type without a name in the schema: cg_pass_type_states_material_emission."""
+
     class Meta:
         global_type = False
 
@@ -1062,6 +1152,8 @@ class CgPassTypeStatesMaterialEmission(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesMaterialShininess(Stated):
+    """A type without a name in the schema: cg_pass_type_states_material_shininess."""
+
     class Meta:
         global_type = False
 
@@ -1081,6 +1173,8 @@ class CgPassTypeStatesMaterialShininess(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesMaterialSpecular(Stated):
+    """A type without a name in the schema: cg_pass_type_states_material_specular."""
+
     class Meta:
         global_type = False
 
@@ -1107,6 +1201,8 @@ class CgPassTypeStatesMaterialSpecular(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesModelViewMatrix(Stated):
+    """A type without a name in the schema: cg_pass_type_states_model_view_matrix."""
+
     class Meta:
         global_type = False
 
@@ -1145,6 +1241,8 @@ class CgPassTypeStatesModelViewMatrix(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesMultisampleEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_multisample_enable."""
+
     class Meta:
         global_type = False
 
@@ -1164,6 +1262,8 @@ class CgPassTypeStatesMultisampleEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesNormalizeEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_normalize_enable."""
+
     class Meta:
         global_type = False
 
@@ -1183,6 +1283,8 @@ class CgPassTypeStatesNormalizeEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPointDistanceAttenuation(Stated):
+    """A type without a name in the schema: cg_pass_type_states_point_distance_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -1208,6 +1310,8 @@ class CgPassTypeStatesPointDistanceAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPointFadeThresholdSize(Stated):
+    """A type without a name in the schema: cg_pass_type_states_point_fade_threshold_size."""
+
     class Meta:
         global_type = False
 
@@ -1227,6 +1331,8 @@ class CgPassTypeStatesPointFadeThresholdSize(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPointSize(Stated):
+    """A type without a name in the schema: cg_pass_type_states_point_size."""
+
     class Meta:
         global_type = False
 
@@ -1246,6 +1352,8 @@ class CgPassTypeStatesPointSize(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPointSizeMax(Stated):
+    """A type without a name in the schema: cg_pass_type_states_point_size_max."""
+
     class Meta:
         global_type = False
 
@@ -1265,6 +1373,8 @@ class CgPassTypeStatesPointSizeMax(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPointSizeMin(Stated):
+    """A type without a name in the schema: cg_pass_type_states_point_size_min."""
+
     class Meta:
         global_type = False
 
@@ -1284,6 +1394,8 @@ class CgPassTypeStatesPointSizeMin(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPointSmoothEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_point_smooth_enable."""
+
     class Meta:
         global_type = False
 
@@ -1303,6 +1415,8 @@ class CgPassTypeStatesPointSmoothEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPolygonOffset(Stated):
+    """A type without a name in the schema: cg_pass_type_states_polygon_offset."""
+
     class Meta:
         global_type = False
 
@@ -1327,6 +1441,8 @@ class CgPassTypeStatesPolygonOffset(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPolygonOffsetFillEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_polygon_offset_fill_enable."""
+
     class Meta:
         global_type = False
 
@@ -1346,6 +1462,8 @@ class CgPassTypeStatesPolygonOffsetFillEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPolygonOffsetLineEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_polygon_offset_line_enable."""
+
     class Meta:
         global_type = False
 
@@ -1365,6 +1483,8 @@ class CgPassTypeStatesPolygonOffsetLineEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPolygonOffsetPointEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_polygon_offset_point_enable."""
+
     class Meta:
         global_type = False
 
@@ -1384,6 +1504,8 @@ class CgPassTypeStatesPolygonOffsetPointEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPolygonSmoothEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_polygon_smooth_enable."""
+
     class Meta:
         global_type = False
 
@@ -1403,6 +1525,8 @@ class CgPassTypeStatesPolygonSmoothEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPolygonStippleEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_polygon_stipple_enable."""
+
     class Meta:
         global_type = False
 
@@ -1422,6 +1546,8 @@ class CgPassTypeStatesPolygonStippleEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesProjectionMatrix(Stated):
+    """A type without a name in the schema: cg_pass_type_states_projection_matrix."""
+
     class Meta:
         global_type = False
 
@@ -1460,6 +1586,8 @@ class CgPassTypeStatesProjectionMatrix(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesRescaleNormalEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_rescale_normal_enable."""
+
     class Meta:
         global_type = False
 
@@ -1479,6 +1607,8 @@ class CgPassTypeStatesRescaleNormalEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesSampleAlphaToCoverageEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_sample_alpha_to_coverage_enable."""
+
     class Meta:
         global_type = False
 
@@ -1498,6 +1628,8 @@ class CgPassTypeStatesSampleAlphaToCoverageEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesSampleAlphaToOneEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_sample_alpha_to_one_enable."""
+
     class Meta:
         global_type = False
 
@@ -1517,6 +1649,8 @@ class CgPassTypeStatesSampleAlphaToOneEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesSampleCoverageEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_sample_coverage_enable."""
+
     class Meta:
         global_type = False
 
@@ -1536,6 +1670,8 @@ class CgPassTypeStatesSampleCoverageEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesScissor(Stated):
+    """A type without a name in the schema: cg_pass_type_states_scissor."""
+
     class Meta:
         global_type = False
 
@@ -1557,6 +1693,8 @@ class CgPassTypeStatesScissor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesScissorTestEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_scissor_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -1576,6 +1714,8 @@ class CgPassTypeStatesScissorTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilFuncMask(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_func_mask."""
+
     class Meta:
         global_type = False
 
@@ -1595,6 +1735,8 @@ class CgPassTypeStatesStencilFuncMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilFuncRef(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_func_ref."""
+
     class Meta:
         global_type = False
 
@@ -1614,6 +1756,8 @@ class CgPassTypeStatesStencilFuncRef(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilFuncSeparateMask(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_func_separate_mask."""
+
     class Meta:
         global_type = False
 
@@ -1633,6 +1777,8 @@ class CgPassTypeStatesStencilFuncSeparateMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilFuncSeparateRef(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_func_separate_ref."""
+
     class Meta:
         global_type = False
 
@@ -1652,6 +1798,8 @@ class CgPassTypeStatesStencilFuncSeparateRef(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilMask(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_mask."""
+
     class Meta:
         global_type = False
 
@@ -1671,6 +1819,8 @@ class CgPassTypeStatesStencilMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilMaskSeparateMask(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_mask_separate_mask."""
+
     class Meta:
         global_type = False
 
@@ -1690,6 +1840,8 @@ class CgPassTypeStatesStencilMaskSeparateMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilTestEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -1709,6 +1861,8 @@ class CgPassTypeStatesStencilTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTexture1D:
+    """A type without a name in the schema: cg_pass_type_states_texture1D."""
+
     class Meta:
         global_type = False
 
@@ -1740,6 +1894,8 @@ class CgPassTypeStatesTexture1D:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTexture1DEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_texture1D_enable."""
+
     class Meta:
         global_type = False
 
@@ -1766,6 +1922,8 @@ class CgPassTypeStatesTexture1DEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTexture2D:
+    """A type without a name in the schema: cg_pass_type_states_texture2D."""
+
     class Meta:
         global_type = False
 
@@ -1797,6 +1955,8 @@ class CgPassTypeStatesTexture2D:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTexture2DEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_texture2D_enable."""
+
     class Meta:
         global_type = False
 
@@ -1823,6 +1983,8 @@ class CgPassTypeStatesTexture2DEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTexture3D:
+    """A type without a name in the schema: cg_pass_type_states_texture3D."""
+
     class Meta:
         global_type = False
 
@@ -1854,6 +2016,8 @@ class CgPassTypeStatesTexture3D:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTexture3DEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_texture3D_enable."""
+
     class Meta:
         global_type = False
 
@@ -1880,6 +2044,8 @@ class CgPassTypeStatesTexture3DEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureCube:
+    """A type without a name in the schema: cg_pass_type_states_textureCUBE."""
+
     class Meta:
         global_type = False
 
@@ -1911,6 +2077,8 @@ class CgPassTypeStatesTextureCube:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureCubeEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_textureCUBE_enable."""
+
     class Meta:
         global_type = False
 
@@ -1937,6 +2105,8 @@ class CgPassTypeStatesTextureCubeEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureDepth:
+    """A type without a name in the schema: cg_pass_type_states_textureDEPTH."""
+
     class Meta:
         global_type = False
 
@@ -1968,6 +2138,8 @@ class CgPassTypeStatesTextureDepth:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureDepthEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_textureDEPTH_enable."""
+
     class Meta:
         global_type = False
 
@@ -1994,6 +2166,8 @@ class CgPassTypeStatesTextureDepthEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureRect:
+    """A type without a name in the schema: cg_pass_type_states_textureRECT."""
+
     class Meta:
         global_type = False
 
@@ -2025,6 +2199,8 @@ class CgPassTypeStatesTextureRect:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureRectEnable(Stated):
+    """A type without a name in the schema: cg_pass_type_states_textureRECT_enable."""
+
     class Meta:
         global_type = False
 
@@ -2051,6 +2227,8 @@ class CgPassTypeStatesTextureRectEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureEnvColor(Stated):
+    """A type without a name in the schema: cg_pass_type_states_texture_env_color."""
+
     class Meta:
         global_type = False
 
@@ -2079,6 +2257,8 @@ class CgPassTypeStatesTextureEnvColor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureEnvMode:
+    """A type without a name in the schema: cg_pass_type_states_texture_env_mode."""
+
     class Meta:
         global_type = False
 
@@ -2104,6 +2284,8 @@ class CgPassTypeStatesTextureEnvMode:
 
 
 class GlBlendEnum(Enum):
+    """The values of gl_blend_enum."""
+
     ZERO = "ZERO"
     ONE = "ONE"
     SRC_COLOR = "SRC_COLOR"
@@ -2122,6 +2304,8 @@ class GlBlendEnum(Enum):
 
 
 class GlBlendEquationEnum(Enum):
+    """The values of gl_blend_equation_enum."""
+
     FUNC_ADD = "FUNC_ADD"
     FUNC_SUBTRACT = "FUNC_SUBTRACT"
     FUNC_REVERSE_SUBTRACT = "FUNC_REVERSE_SUBTRACT"
@@ -2130,6 +2314,8 @@ class GlBlendEquationEnum(Enum):
 
 
 class GlEnumerationType(Enum):
+    """The values of gl_enumeration_type."""
+
     ZERO = "ZERO"
     ONE = "ONE"
     SRC_COLOR = "SRC_COLOR"
@@ -2204,28 +2390,38 @@ class GlEnumerationType(Enum):
 
 
 class GlFaceEnum(Enum):
+    """The values of gl_face_enum."""
+
     FRONT = "FRONT"
     BACK = "BACK"
     FRONT_AND_BACK = "FRONT_AND_BACK"
 
 
 class GlFogCoordSrcEnum(Enum):
+    """The values of gl_fog_coord_src_enum."""
+
     FOG_COORDINATE = "FOG_COORDINATE"
     FRAGMENT_DEPTH = "FRAGMENT_DEPTH"
 
 
 class GlFogEnum(Enum):
+    """The values of gl_fog_enum."""
+
     LINEAR = "LINEAR"
     EXP = "EXP"
     EXP2 = "EXP2"
 
 
 class GlFrontFaceEnum(Enum):
+    """The values of gl_front_face_enum."""
+
     CW = "CW"
     CCW = "CCW"
 
 
 class GlFuncEnum(Enum):
+    """The values of gl_func_enum."""
+
     NEVER = "NEVER"
     LESS = "LESS"
     LEQUAL = "LEQUAL"
@@ -2237,11 +2433,15 @@ class GlFuncEnum(Enum):
 
 
 class GlLightModelColorControlEnum(Enum):
+    """The values of gl_light_model_color_control_enum."""
+
     SINGLE_COLOR = "SINGLE_COLOR"
     SEPARATE_SPECULAR_COLOR = "SEPARATE_SPECULAR_COLOR"
 
 
 class GlLogicOpEnum(Enum):
+    """The values of gl_logic_op_enum."""
+
     CLEAR = "CLEAR"
     AND = "AND"
     AND_REVERSE = "AND_REVERSE"
@@ -2260,6 +2460,8 @@ class GlLogicOpEnum(Enum):
 
 
 class GlMaterialEnum(Enum):
+    """The values of gl_material_enum."""
+
     EMISSION = "EMISSION"
     AMBIENT = "AMBIENT"
     DIFFUSE = "DIFFUSE"
@@ -2268,17 +2470,23 @@ class GlMaterialEnum(Enum):
 
 
 class GlPolygonModeEnum(Enum):
+    """The values of gl_polygon_mode_enum."""
+
     POINT = "POINT"
     LINE = "LINE"
     FILL = "FILL"
 
 
 class GlShadeModelEnum(Enum):
+    """The values of gl_shade_model_enum."""
+
     FLAT = "FLAT"
     SMOOTH = "SMOOTH"
 
 
 class GlStencilOpEnum(Enum):
+    """The values of gl_stencil_op_enum."""
+
     KEEP = "KEEP"
     ZERO = "ZERO"
     REPLACE = "REPLACE"
@@ -2291,6 +2499,8 @@ class GlStencilOpEnum(Enum):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesAlphaFuncValue(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_alpha_func_value."""
+
     class Meta:
         global_type = False
 
@@ -2312,6 +2522,8 @@ class ProfileGlslTypeTechniquePassStatesAlphaFuncValue(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesAlphaTestEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_alpha_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -2331,6 +2543,8 @@ class ProfileGlslTypeTechniquePassStatesAlphaTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendColor(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_color."""
+
     class Meta:
         global_type = False
 
@@ -2357,6 +2571,8 @@ class ProfileGlslTypeTechniquePassStatesBlendColor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_enable."""
+
     class Meta:
         global_type = False
 
@@ -2376,6 +2592,8 @@ class ProfileGlslTypeTechniquePassStatesBlendEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesClipPlane(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_clip_plane."""
+
     class Meta:
         global_type = False
 
@@ -2409,6 +2627,8 @@ class ProfileGlslTypeTechniquePassStatesClipPlane(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesClipPlaneEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_clip_plane_enable."""
+
     class Meta:
         global_type = False
 
@@ -2435,6 +2655,8 @@ class ProfileGlslTypeTechniquePassStatesClipPlaneEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesColorLogicOpEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_color_logic_op_enable."""
+
     class Meta:
         global_type = False
 
@@ -2454,6 +2676,8 @@ class ProfileGlslTypeTechniquePassStatesColorLogicOpEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesColorMask(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_color_mask."""
+
     class Meta:
         global_type = False
 
@@ -2480,6 +2704,8 @@ class ProfileGlslTypeTechniquePassStatesColorMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesColorMaterialEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_color_material_enable."""
+
     class Meta:
         global_type = False
 
@@ -2499,6 +2725,8 @@ class ProfileGlslTypeTechniquePassStatesColorMaterialEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesCullFaceEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_cull_face_enable."""
+
     class Meta:
         global_type = False
 
@@ -2518,6 +2746,8 @@ class ProfileGlslTypeTechniquePassStatesCullFaceEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesDepthBounds(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_depth_bounds."""
+
     class Meta:
         global_type = False
 
@@ -2539,6 +2769,8 @@ class ProfileGlslTypeTechniquePassStatesDepthBounds(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesDepthBoundsEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_depth_bounds_enable."""
+
     class Meta:
         global_type = False
 
@@ -2558,6 +2790,8 @@ class ProfileGlslTypeTechniquePassStatesDepthBoundsEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesDepthClampEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_depth_clamp_enable."""
+
     class Meta:
         global_type = False
 
@@ -2577,6 +2811,8 @@ class ProfileGlslTypeTechniquePassStatesDepthClampEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesDepthMask(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_depth_mask."""
+
     class Meta:
         global_type = False
 
@@ -2596,6 +2832,8 @@ class ProfileGlslTypeTechniquePassStatesDepthMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesDepthRange(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_depth_range."""
+
     class Meta:
         global_type = False
 
@@ -2620,6 +2858,8 @@ class ProfileGlslTypeTechniquePassStatesDepthRange(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesDepthTestEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_depth_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -2639,6 +2879,8 @@ class ProfileGlslTypeTechniquePassStatesDepthTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesDitherEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_dither_enable."""
+
     class Meta:
         global_type = False
 
@@ -2658,6 +2900,8 @@ class ProfileGlslTypeTechniquePassStatesDitherEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesFogColor(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_fog_color."""
+
     class Meta:
         global_type = False
 
@@ -2684,6 +2928,8 @@ class ProfileGlslTypeTechniquePassStatesFogColor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesFogDensity(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_fog_density."""
+
     class Meta:
         global_type = False
 
@@ -2703,6 +2949,8 @@ class ProfileGlslTypeTechniquePassStatesFogDensity(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesFogEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_fog_enable."""
+
     class Meta:
         global_type = False
 
@@ -2722,6 +2970,8 @@ class ProfileGlslTypeTechniquePassStatesFogEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesFogEnd(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_fog_end."""
+
     class Meta:
         global_type = False
 
@@ -2741,6 +2991,8 @@ class ProfileGlslTypeTechniquePassStatesFogEnd(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesFogStart(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_fog_start."""
+
     class Meta:
         global_type = False
 
@@ -2760,6 +3012,8 @@ class ProfileGlslTypeTechniquePassStatesFogStart(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightAmbient(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_ambient."""
+
     class Meta:
         global_type = False
 
@@ -2792,6 +3046,8 @@ class ProfileGlslTypeTechniquePassStatesLightAmbient(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightConstantAttenuation(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_constant_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -2817,6 +3073,8 @@ class ProfileGlslTypeTechniquePassStatesLightConstantAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightDiffuse(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_diffuse."""
+
     class Meta:
         global_type = False
 
@@ -2849,6 +3107,8 @@ class ProfileGlslTypeTechniquePassStatesLightDiffuse(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_enable."""
+
     class Meta:
         global_type = False
 
@@ -2874,6 +3134,8 @@ class ProfileGlslTypeTechniquePassStatesLightEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightLinearAttenuation(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_linear_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -2899,6 +3161,8 @@ class ProfileGlslTypeTechniquePassStatesLightLinearAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightModelAmbient(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_model_ambient."""
+
     class Meta:
         global_type = False
 
@@ -2925,6 +3189,8 @@ class ProfileGlslTypeTechniquePassStatesLightModelAmbient(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightModelLocalViewerEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_model_local_viewer_enable."""
+
     class Meta:
         global_type = False
 
@@ -2944,6 +3210,8 @@ class ProfileGlslTypeTechniquePassStatesLightModelLocalViewerEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightModelTwoSideEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_model_two_side_enable."""
+
     class Meta:
         global_type = False
 
@@ -2963,6 +3231,8 @@ class ProfileGlslTypeTechniquePassStatesLightModelTwoSideEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightPosition(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_position."""
+
     class Meta:
         global_type = False
 
@@ -2995,6 +3265,8 @@ class ProfileGlslTypeTechniquePassStatesLightPosition(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightQuadraticAttenuation(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_quadratic_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -3020,6 +3292,8 @@ class ProfileGlslTypeTechniquePassStatesLightQuadraticAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightSpecular(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_specular."""
+
     class Meta:
         global_type = False
 
@@ -3052,6 +3326,8 @@ class ProfileGlslTypeTechniquePassStatesLightSpecular(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightSpotCutoff(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_spot_cutoff."""
+
     class Meta:
         global_type = False
 
@@ -3077,6 +3353,8 @@ class ProfileGlslTypeTechniquePassStatesLightSpotCutoff(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightSpotDirection(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_spot_direction."""
+
     class Meta:
         global_type = False
 
@@ -3108,6 +3386,8 @@ class ProfileGlslTypeTechniquePassStatesLightSpotDirection(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightSpotExponent(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_spot_exponent."""
+
     class Meta:
         global_type = False
 
@@ -3133,6 +3413,8 @@ class ProfileGlslTypeTechniquePassStatesLightSpotExponent(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightingEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_lighting_enable."""
+
     class Meta:
         global_type = False
 
@@ -3152,6 +3434,8 @@ class ProfileGlslTypeTechniquePassStatesLightingEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLineSmoothEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_line_smooth_enable."""
+
     class Meta:
         global_type = False
 
@@ -3171,6 +3455,8 @@ class ProfileGlslTypeTechniquePassStatesLineSmoothEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLineStipple(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_line_stipple."""
+
     class Meta:
         global_type = False
 
@@ -3195,6 +3481,8 @@ class ProfileGlslTypeTechniquePassStatesLineStipple(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLineStippleEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_line_stipple_enable."""
+
     class Meta:
         global_type = False
 
@@ -3214,6 +3502,8 @@ class ProfileGlslTypeTechniquePassStatesLineStippleEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLineWidth(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_line_width."""
+
     class Meta:
         global_type = False
 
@@ -3233,6 +3523,8 @@ class ProfileGlslTypeTechniquePassStatesLineWidth(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLogicOpEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_logic_op_enable."""
+
     class Meta:
         global_type = False
 
@@ -3252,6 +3544,8 @@ class ProfileGlslTypeTechniquePassStatesLogicOpEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesMaterialAmbient(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_material_ambient."""
+
     class Meta:
         global_type = False
 
@@ -3278,6 +3572,8 @@ class ProfileGlslTypeTechniquePassStatesMaterialAmbient(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesMaterialDiffuse(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_material_diffuse."""
+
     class Meta:
         global_type = False
 
@@ -3304,6 +3600,8 @@ class ProfileGlslTypeTechniquePassStatesMaterialDiffuse(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesMaterialEmission(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_material_emission."""
+
     class Meta:
         global_type = False
 
@@ -3330,6 +3628,8 @@ class ProfileGlslTypeTechniquePassStatesMaterialEmission(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesMaterialShininess(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_material_shininess."""
+
     class Meta:
         global_type = False
 
@@ -3349,6 +3649,8 @@ class ProfileGlslTypeTechniquePassStatesMaterialShininess(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesMaterialSpecular(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_material_specular."""
+
     class Meta:
         global_type = False
 
@@ -3375,6 +3677,8 @@ class ProfileGlslTypeTechniquePassStatesMaterialSpecular(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesModelViewMatrix(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_model_view_matrix."""
+
     class Meta:
         global_type = False
 
@@ -3413,6 +3717,8 @@ class ProfileGlslTypeTechniquePassStatesModelViewMatrix(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesMultisampleEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_multisample_enable."""
+
     class Meta:
         global_type = False
 
@@ -3432,6 +3738,8 @@ class ProfileGlslTypeTechniquePassStatesMultisampleEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesNormalizeEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_normalize_enable."""
+
     class Meta:
         global_type = False
 
@@ -3451,6 +3759,8 @@ class ProfileGlslTypeTechniquePassStatesNormalizeEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPointDistanceAttenuation(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_point_distance_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -3476,6 +3786,8 @@ class ProfileGlslTypeTechniquePassStatesPointDistanceAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPointFadeThresholdSize(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_point_fade_threshold_size."""
+
     class Meta:
         global_type = False
 
@@ -3495,6 +3807,8 @@ class ProfileGlslTypeTechniquePassStatesPointFadeThresholdSize(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPointSize(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_point_size."""
+
     class Meta:
         global_type = False
 
@@ -3514,6 +3828,8 @@ class ProfileGlslTypeTechniquePassStatesPointSize(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPointSizeMax(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_point_size_max."""
+
     class Meta:
         global_type = False
 
@@ -3533,6 +3849,8 @@ class ProfileGlslTypeTechniquePassStatesPointSizeMax(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPointSizeMin(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_point_size_min."""
+
     class Meta:
         global_type = False
 
@@ -3552,6 +3870,8 @@ class ProfileGlslTypeTechniquePassStatesPointSizeMin(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPointSmoothEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_point_smooth_enable."""
+
     class Meta:
         global_type = False
 
@@ -3571,6 +3891,8 @@ class ProfileGlslTypeTechniquePassStatesPointSmoothEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPolygonOffset(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_polygon_offset."""
+
     class Meta:
         global_type = False
 
@@ -3595,6 +3917,8 @@ class ProfileGlslTypeTechniquePassStatesPolygonOffset(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPolygonOffsetFillEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_polygon_offset_fill_enable."""
+
     class Meta:
         global_type = False
 
@@ -3614,6 +3938,8 @@ class ProfileGlslTypeTechniquePassStatesPolygonOffsetFillEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPolygonOffsetLineEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_polygon_offset_line_enable."""
+
     class Meta:
         global_type = False
 
@@ -3633,6 +3959,8 @@ class ProfileGlslTypeTechniquePassStatesPolygonOffsetLineEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPolygonOffsetPointEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_polygon_offset_point_enable."""
+
     class Meta:
         global_type = False
 
@@ -3652,6 +3980,8 @@ class ProfileGlslTypeTechniquePassStatesPolygonOffsetPointEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPolygonSmoothEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_polygon_smooth_enable."""
+
     class Meta:
         global_type = False
 
@@ -3671,6 +4001,8 @@ class ProfileGlslTypeTechniquePassStatesPolygonSmoothEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPolygonStippleEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_polygon_stipple_enable."""
+
     class Meta:
         global_type = False
 
@@ -3690,6 +4022,8 @@ class ProfileGlslTypeTechniquePassStatesPolygonStippleEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesProjectionMatrix(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_projection_matrix."""
+
     class Meta:
         global_type = False
 
@@ -3728,6 +4062,8 @@ class ProfileGlslTypeTechniquePassStatesProjectionMatrix(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesRescaleNormalEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_rescale_normal_enable."""
+
     class Meta:
         global_type = False
 
@@ -3747,6 +4083,8 @@ class ProfileGlslTypeTechniquePassStatesRescaleNormalEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesSampleAlphaToCoverageEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_sample_alpha_to_coverage_enable."""
+
     class Meta:
         global_type = False
 
@@ -3766,6 +4104,8 @@ class ProfileGlslTypeTechniquePassStatesSampleAlphaToCoverageEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesSampleAlphaToOneEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_sample_alpha_to_one_enable."""
+
     class Meta:
         global_type = False
 
@@ -3785,6 +4125,8 @@ class ProfileGlslTypeTechniquePassStatesSampleAlphaToOneEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesSampleCoverageEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_sample_coverage_enable."""
+
     class Meta:
         global_type = False
 
@@ -3804,6 +4146,8 @@ class ProfileGlslTypeTechniquePassStatesSampleCoverageEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesScissor(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_scissor."""
+
     class Meta:
         global_type = False
 
@@ -3825,6 +4169,8 @@ class ProfileGlslTypeTechniquePassStatesScissor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesScissorTestEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_scissor_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -3844,6 +4190,8 @@ class ProfileGlslTypeTechniquePassStatesScissorTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilFuncMask(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_func_mask."""
+
     class Meta:
         global_type = False
 
@@ -3863,6 +4211,8 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilFuncRef(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_func_ref."""
+
     class Meta:
         global_type = False
 
@@ -3882,6 +4232,8 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncRef(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateMask(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_func_separate_mask."""
+
     class Meta:
         global_type = False
 
@@ -3901,6 +4253,8 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateRef(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_func_separate_ref."""
+
     class Meta:
         global_type = False
 
@@ -3920,6 +4274,8 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateRef(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilMask(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_mask."""
+
     class Meta:
         global_type = False
 
@@ -3939,6 +4295,8 @@ class ProfileGlslTypeTechniquePassStatesStencilMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilMaskSeparateMask(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_mask_separate_mask."""
+
     class Meta:
         global_type = False
 
@@ -3958,6 +4316,8 @@ class ProfileGlslTypeTechniquePassStatesStencilMaskSeparateMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilTestEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -3977,6 +4337,8 @@ class ProfileGlslTypeTechniquePassStatesStencilTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTexture1D:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture1D."""
+
     class Meta:
         global_type = False
 
@@ -4008,6 +4370,8 @@ class ProfileGlslTypeTechniquePassStatesTexture1D:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTexture1DEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture1D_enable."""
+
     class Meta:
         global_type = False
 
@@ -4034,6 +4398,8 @@ class ProfileGlslTypeTechniquePassStatesTexture1DEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTexture2D:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture2D."""
+
     class Meta:
         global_type = False
 
@@ -4065,6 +4431,8 @@ class ProfileGlslTypeTechniquePassStatesTexture2D:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTexture2DEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture2D_enable."""
+
     class Meta:
         global_type = False
 
@@ -4091,6 +4459,8 @@ class ProfileGlslTypeTechniquePassStatesTexture2DEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTexture3D:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture3D."""
+
     class Meta:
         global_type = False
 
@@ -4122,6 +4492,8 @@ class ProfileGlslTypeTechniquePassStatesTexture3D:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTexture3DEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture3D_enable."""
+
     class Meta:
         global_type = False
 
@@ -4148,6 +4520,8 @@ class ProfileGlslTypeTechniquePassStatesTexture3DEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureCube:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_textureCUBE."""
+
     class Meta:
         global_type = False
 
@@ -4179,6 +4553,8 @@ class ProfileGlslTypeTechniquePassStatesTextureCube:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureCubeEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_textureCUBE_enable."""
+
     class Meta:
         global_type = False
 
@@ -4205,6 +4581,8 @@ class ProfileGlslTypeTechniquePassStatesTextureCubeEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureDepth:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_textureDEPTH."""
+
     class Meta:
         global_type = False
 
@@ -4236,6 +4614,8 @@ class ProfileGlslTypeTechniquePassStatesTextureDepth:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureDepthEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_textureDEPTH_enable."""
+
     class Meta:
         global_type = False
 
@@ -4262,6 +4642,8 @@ class ProfileGlslTypeTechniquePassStatesTextureDepthEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureRect:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_textureRECT."""
+
     class Meta:
         global_type = False
 
@@ -4293,6 +4675,8 @@ class ProfileGlslTypeTechniquePassStatesTextureRect:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureRectEnable(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_textureRECT_enable."""
+
     class Meta:
         global_type = False
 
@@ -4319,6 +4703,8 @@ class ProfileGlslTypeTechniquePassStatesTextureRectEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureEnvColor(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture_env_color."""
+
     class Meta:
         global_type = False
 
@@ -4347,6 +4733,8 @@ class ProfileGlslTypeTechniquePassStatesTextureEnvColor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureEnvMode:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture_env_mode."""
+
     class Meta:
         global_type = False
 
@@ -4373,6 +4761,8 @@ class ProfileGlslTypeTechniquePassStatesTextureEnvMode:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesAlphaFuncFunc(Stated):
+    """A type without a name in the schema: cg_pass_type_states_alpha_func_func."""
+
     class Meta:
         global_type = False
 
@@ -4392,6 +4782,8 @@ class CgPassTypeStatesAlphaFuncFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendEquation(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_equation."""
+
     class Meta:
         global_type = False
 
@@ -4411,6 +4803,8 @@ class CgPassTypeStatesBlendEquation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendEquationSeparateAlpha(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_equation_separate_alpha."""
+
     class Meta:
         global_type = False
 
@@ -4430,6 +4824,8 @@ class CgPassTypeStatesBlendEquationSeparateAlpha(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendEquationSeparateRgb(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_equation_separate_rgb."""
+
     class Meta:
         global_type = False
 
@@ -4449,6 +4845,8 @@ class CgPassTypeStatesBlendEquationSeparateRgb(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendFuncDest(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_func_dest."""
+
     class Meta:
         global_type = False
 
@@ -4468,6 +4866,8 @@ class CgPassTypeStatesBlendFuncDest(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendFuncSeparateDestAlpha(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_func_separate_dest_alpha."""
+
     class Meta:
         global_type = False
 
@@ -4487,6 +4887,8 @@ class CgPassTypeStatesBlendFuncSeparateDestAlpha(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendFuncSeparateDestRgb(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_func_separate_dest_rgb."""
+
     class Meta:
         global_type = False
 
@@ -4506,6 +4908,8 @@ class CgPassTypeStatesBlendFuncSeparateDestRgb(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendFuncSeparateSrcAlpha(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_func_separate_src_alpha."""
+
     class Meta:
         global_type = False
 
@@ -4525,6 +4929,8 @@ class CgPassTypeStatesBlendFuncSeparateSrcAlpha(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendFuncSeparateSrcRgb(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_func_separate_src_rgb."""
+
     class Meta:
         global_type = False
 
@@ -4544,6 +4950,8 @@ class CgPassTypeStatesBlendFuncSeparateSrcRgb(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendFuncSrc(Stated):
+    """A type without a name in the schema: cg_pass_type_states_blend_func_src."""
+
     class Meta:
         global_type = False
 
@@ -4563,6 +4971,8 @@ class CgPassTypeStatesBlendFuncSrc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesColorMaterialFace(Stated):
+    """A type without a name in the schema: cg_pass_type_states_color_material_face."""
+
     class Meta:
         global_type = False
 
@@ -4582,6 +4992,8 @@ class CgPassTypeStatesColorMaterialFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesColorMaterialMode(Stated):
+    """A type without a name in the schema: cg_pass_type_states_color_material_mode."""
+
     class Meta:
         global_type = False
 
@@ -4601,6 +5013,8 @@ class CgPassTypeStatesColorMaterialMode(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesCullFace(Stated):
+    """A type without a name in the schema: cg_pass_type_states_cull_face."""
+
     class Meta:
         global_type = False
 
@@ -4620,6 +5034,8 @@ class CgPassTypeStatesCullFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesDepthFunc(Stated):
+    """A type without a name in the schema: cg_pass_type_states_depth_func."""
+
     class Meta:
         global_type = False
 
@@ -4639,6 +5055,8 @@ class CgPassTypeStatesDepthFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesFogCoordSrc(Stated):
+    """A type without a name in the schema: cg_pass_type_states_fog_coord_src."""
+
     class Meta:
         global_type = False
 
@@ -4658,6 +5076,8 @@ class CgPassTypeStatesFogCoordSrc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesFogMode(Stated):
+    """A type without a name in the schema: cg_pass_type_states_fog_mode."""
+
     class Meta:
         global_type = False
 
@@ -4677,6 +5097,8 @@ class CgPassTypeStatesFogMode(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesFrontFace(Stated):
+    """A type without a name in the schema: cg_pass_type_states_front_face."""
+
     class Meta:
         global_type = False
 
@@ -4696,6 +5118,8 @@ class CgPassTypeStatesFrontFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLightModelColorControl(Stated):
+    """A type without a name in the schema: cg_pass_type_states_light_model_color_control."""
+
     class Meta:
         global_type = False
 
@@ -4715,6 +5139,8 @@ class CgPassTypeStatesLightModelColorControl(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesLogicOp(Stated):
+    """A type without a name in the schema: cg_pass_type_states_logic_op."""
+
     class Meta:
         global_type = False
 
@@ -4734,6 +5160,8 @@ class CgPassTypeStatesLogicOp(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPolygonModeFace(Stated):
+    """A type without a name in the schema: cg_pass_type_states_polygon_mode_face."""
+
     class Meta:
         global_type = False
 
@@ -4753,6 +5181,8 @@ class CgPassTypeStatesPolygonModeFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPolygonModeMode(Stated):
+    """A type without a name in the schema: cg_pass_type_states_polygon_mode_mode."""
+
     class Meta:
         global_type = False
 
@@ -4772,6 +5202,8 @@ class CgPassTypeStatesPolygonModeMode(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesShadeModel(Stated):
+    """A type without a name in the schema: cg_pass_type_states_shade_model."""
+
     class Meta:
         global_type = False
 
@@ -4791,6 +5223,8 @@ class CgPassTypeStatesShadeModel(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilFuncFunc(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_func_func."""
+
     class Meta:
         global_type = False
 
@@ -4810,6 +5244,8 @@ class CgPassTypeStatesStencilFuncFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilFuncSeparateBack(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_func_separate_back."""
+
     class Meta:
         global_type = False
 
@@ -4829,6 +5265,8 @@ class CgPassTypeStatesStencilFuncSeparateBack(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilFuncSeparateFront(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_func_separate_front."""
+
     class Meta:
         global_type = False
 
@@ -4848,6 +5286,8 @@ class CgPassTypeStatesStencilFuncSeparateFront(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilMaskSeparateFace(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_mask_separate_face."""
+
     class Meta:
         global_type = False
 
@@ -4867,6 +5307,8 @@ class CgPassTypeStatesStencilMaskSeparateFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilOpFail(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_op_fail."""
+
     class Meta:
         global_type = False
 
@@ -4886,6 +5328,8 @@ class CgPassTypeStatesStencilOpFail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilOpSeparateFace(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_op_separate_face."""
+
     class Meta:
         global_type = False
 
@@ -4905,6 +5349,8 @@ class CgPassTypeStatesStencilOpSeparateFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilOpSeparateFail(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_op_separate_fail."""
+
     class Meta:
         global_type = False
 
@@ -4924,6 +5370,8 @@ class CgPassTypeStatesStencilOpSeparateFail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilOpSeparateZfail(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_op_separate_zfail."""
+
     class Meta:
         global_type = False
 
@@ -4943,6 +5391,8 @@ class CgPassTypeStatesStencilOpSeparateZfail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilOpSeparateZpass(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_op_separate_zpass."""
+
     class Meta:
         global_type = False
 
@@ -4962,6 +5412,8 @@ class CgPassTypeStatesStencilOpSeparateZpass(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilOpZfail(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_op_zfail."""
+
     class Meta:
         global_type = False
 
@@ -4981,6 +5433,8 @@ class CgPassTypeStatesStencilOpZfail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilOpZpass(Stated):
+    """A type without a name in the schema: cg_pass_type_states_stencil_op_zpass."""
+
     class Meta:
         global_type = False
 
@@ -5000,6 +5454,8 @@ class CgPassTypeStatesStencilOpZpass(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesAlphaFuncFunc(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_alpha_func_func."""
+
     class Meta:
         global_type = False
 
@@ -5019,6 +5475,8 @@ class ProfileGlslTypeTechniquePassStatesAlphaFuncFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendEquation(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_equation."""
+
     class Meta:
         global_type = False
 
@@ -5038,6 +5496,8 @@ class ProfileGlslTypeTechniquePassStatesBlendEquation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendEquationSeparateAlpha(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_equation_separate_alpha."""
+
     class Meta:
         global_type = False
 
@@ -5057,6 +5517,8 @@ class ProfileGlslTypeTechniquePassStatesBlendEquationSeparateAlpha(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendEquationSeparateRgb(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_equation_separate_rgb."""
+
     class Meta:
         global_type = False
 
@@ -5076,6 +5538,8 @@ class ProfileGlslTypeTechniquePassStatesBlendEquationSeparateRgb(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendFuncDest(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_func_dest."""
+
     class Meta:
         global_type = False
 
@@ -5095,6 +5559,8 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncDest(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestAlpha(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_func_separate_dest_alpha."""
+
     class Meta:
         global_type = False
 
@@ -5114,6 +5580,8 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestAlpha(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestRgb(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_func_separate_dest_rgb."""
+
     class Meta:
         global_type = False
 
@@ -5133,6 +5601,8 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestRgb(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcAlpha(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_func_separate_src_alpha."""
+
     class Meta:
         global_type = False
 
@@ -5152,6 +5622,8 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcAlpha(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcRgb(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_func_separate_src_rgb."""
+
     class Meta:
         global_type = False
 
@@ -5171,6 +5643,8 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcRgb(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendFuncSrc(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_func_src."""
+
     class Meta:
         global_type = False
 
@@ -5190,6 +5664,8 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSrc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesColorMaterialFace(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_color_material_face."""
+
     class Meta:
         global_type = False
 
@@ -5209,6 +5685,8 @@ class ProfileGlslTypeTechniquePassStatesColorMaterialFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesColorMaterialMode(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_color_material_mode."""
+
     class Meta:
         global_type = False
 
@@ -5228,6 +5706,8 @@ class ProfileGlslTypeTechniquePassStatesColorMaterialMode(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesCullFace(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_cull_face."""
+
     class Meta:
         global_type = False
 
@@ -5247,6 +5727,8 @@ class ProfileGlslTypeTechniquePassStatesCullFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesDepthFunc(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_depth_func."""
+
     class Meta:
         global_type = False
 
@@ -5266,6 +5748,8 @@ class ProfileGlslTypeTechniquePassStatesDepthFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesFogCoordSrc(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_fog_coord_src."""
+
     class Meta:
         global_type = False
 
@@ -5285,6 +5769,8 @@ class ProfileGlslTypeTechniquePassStatesFogCoordSrc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesFogMode(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_fog_mode."""
+
     class Meta:
         global_type = False
 
@@ -5304,6 +5790,8 @@ class ProfileGlslTypeTechniquePassStatesFogMode(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesFrontFace(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_front_face."""
+
     class Meta:
         global_type = False
 
@@ -5323,6 +5811,8 @@ class ProfileGlslTypeTechniquePassStatesFrontFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLightModelColorControl(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_light_model_color_control."""
+
     class Meta:
         global_type = False
 
@@ -5342,6 +5832,8 @@ class ProfileGlslTypeTechniquePassStatesLightModelColorControl(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesLogicOp(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_logic_op."""
+
     class Meta:
         global_type = False
 
@@ -5361,6 +5853,8 @@ class ProfileGlslTypeTechniquePassStatesLogicOp(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPolygonModeFace(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_polygon_mode_face."""
+
     class Meta:
         global_type = False
 
@@ -5380,6 +5874,8 @@ class ProfileGlslTypeTechniquePassStatesPolygonModeFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPolygonModeMode(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_polygon_mode_mode."""
+
     class Meta:
         global_type = False
 
@@ -5399,6 +5895,8 @@ class ProfileGlslTypeTechniquePassStatesPolygonModeMode(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesShadeModel(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_shade_model."""
+
     class Meta:
         global_type = False
 
@@ -5418,6 +5916,8 @@ class ProfileGlslTypeTechniquePassStatesShadeModel(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilFuncFunc(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_func_func."""
+
     class Meta:
         global_type = False
 
@@ -5437,6 +5937,8 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateBack(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_func_separate_back."""
+
     class Meta:
         global_type = False
 
@@ -5456,6 +5958,8 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateBack(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateFront(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_func_separate_front."""
+
     class Meta:
         global_type = False
 
@@ -5475,6 +5979,8 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateFront(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilMaskSeparateFace(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_mask_separate_face."""
+
     class Meta:
         global_type = False
 
@@ -5494,6 +6000,8 @@ class ProfileGlslTypeTechniquePassStatesStencilMaskSeparateFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilOpFail(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_op_fail."""
+
     class Meta:
         global_type = False
 
@@ -5513,6 +6021,8 @@ class ProfileGlslTypeTechniquePassStatesStencilOpFail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilOpSeparateFace(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_op_separate_face."""
+
     class Meta:
         global_type = False
 
@@ -5532,6 +6042,8 @@ class ProfileGlslTypeTechniquePassStatesStencilOpSeparateFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilOpSeparateFail(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_op_separate_fail."""
+
     class Meta:
         global_type = False
 
@@ -5551,6 +6063,8 @@ class ProfileGlslTypeTechniquePassStatesStencilOpSeparateFail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilOpSeparateZfail(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_op_separate_zfail."""
+
     class Meta:
         global_type = False
 
@@ -5570,6 +6084,8 @@ class ProfileGlslTypeTechniquePassStatesStencilOpSeparateZfail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilOpSeparateZpass(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_op_separate_zpass."""
+
     class Meta:
         global_type = False
 
@@ -5589,6 +6105,8 @@ class ProfileGlslTypeTechniquePassStatesStencilOpSeparateZpass(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilOpZfail(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_op_zfail."""
+
     class Meta:
         global_type = False
 
@@ -5608,6 +6126,8 @@ class ProfileGlslTypeTechniquePassStatesStencilOpZfail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilOpZpass(Stated):
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_op_zpass."""
+
     class Meta:
         global_type = False
 
@@ -5627,6 +6147,8 @@ class ProfileGlslTypeTechniquePassStatesStencilOpZpass(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesAlphaFunc:
+    """A type without a name in the schema: cg_pass_type_states_alpha_func."""
+
     class Meta:
         global_type = False
 
@@ -5646,6 +6168,8 @@ class CgPassTypeStatesAlphaFunc:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendEquationSeparate:
+    """A type without a name in the schema: cg_pass_type_states_blend_equation_separate."""
+
     class Meta:
         global_type = False
 
@@ -5665,6 +6189,8 @@ class CgPassTypeStatesBlendEquationSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendFunc:
+    """A type without a name in the schema: cg_pass_type_states_blend_func."""
+
     class Meta:
         global_type = False
 
@@ -5684,6 +6210,8 @@ class CgPassTypeStatesBlendFunc:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesBlendFuncSeparate:
+    """A type without a name in the schema: cg_pass_type_states_blend_func_separate."""
+
     class Meta:
         global_type = False
 
@@ -5715,6 +6243,8 @@ class CgPassTypeStatesBlendFuncSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesColorMaterial:
+    """A type without a name in the schema: cg_pass_type_states_color_material."""
+
     class Meta:
         global_type = False
 
@@ -5734,6 +6264,8 @@ class CgPassTypeStatesColorMaterial:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesPolygonMode:
+    """A type without a name in the schema: cg_pass_type_states_polygon_mode."""
+
     class Meta:
         global_type = False
 
@@ -5753,6 +6285,8 @@ class CgPassTypeStatesPolygonMode:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilFunc:
+    """A type without a name in the schema: cg_pass_type_states_stencil_func."""
+
     class Meta:
         global_type = False
 
@@ -5778,6 +6312,8 @@ class CgPassTypeStatesStencilFunc:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilFuncSeparate:
+    """A type without a name in the schema: cg_pass_type_states_stencil_func_separate."""
+
     class Meta:
         global_type = False
 
@@ -5809,6 +6345,8 @@ class CgPassTypeStatesStencilFuncSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilMaskSeparate:
+    """A type without a name in the schema: cg_pass_type_states_stencil_mask_separate."""
+
     class Meta:
         global_type = False
 
@@ -5828,6 +6366,8 @@ class CgPassTypeStatesStencilMaskSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilOp:
+    """A type without a name in the schema: cg_pass_type_states_stencil_op."""
+
     class Meta:
         global_type = False
 
@@ -5853,6 +6393,8 @@ class CgPassTypeStatesStencilOp:
 
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesStencilOpSeparate:
+    """A type without a name in the schema: cg_pass_type_states_stencil_op_separate."""
+
     class Meta:
         global_type = False
 
@@ -5884,6 +6426,8 @@ class CgPassTypeStatesStencilOpSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesAlphaFunc:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_alpha_func."""
+
     class Meta:
         global_type = False
 
@@ -5903,6 +6447,8 @@ class ProfileGlslTypeTechniquePassStatesAlphaFunc:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendEquationSeparate:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_equation_separate."""
+
     class Meta:
         global_type = False
 
@@ -5922,6 +6468,8 @@ class ProfileGlslTypeTechniquePassStatesBlendEquationSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendFunc:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_func."""
+
     class Meta:
         global_type = False
 
@@ -5941,6 +6489,8 @@ class ProfileGlslTypeTechniquePassStatesBlendFunc:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesBlendFuncSeparate:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_blend_func_separate."""
+
     class Meta:
         global_type = False
 
@@ -5972,6 +6522,8 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesColorMaterial:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_color_material."""
+
     class Meta:
         global_type = False
 
@@ -5991,6 +6543,8 @@ class ProfileGlslTypeTechniquePassStatesColorMaterial:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesPolygonMode:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_polygon_mode."""
+
     class Meta:
         global_type = False
 
@@ -6010,6 +6564,8 @@ class ProfileGlslTypeTechniquePassStatesPolygonMode:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilFunc:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_func."""
+
     class Meta:
         global_type = False
 
@@ -6035,6 +6591,8 @@ class ProfileGlslTypeTechniquePassStatesStencilFunc:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilFuncSeparate:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_func_separate."""
+
     class Meta:
         global_type = False
 
@@ -6066,6 +6624,8 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilMaskSeparate:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_mask_separate."""
+
     class Meta:
         global_type = False
 
@@ -6085,6 +6645,8 @@ class ProfileGlslTypeTechniquePassStatesStencilMaskSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilOp:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_op."""
+
     class Meta:
         global_type = False
 
@@ -6110,6 +6672,8 @@ class ProfileGlslTypeTechniquePassStatesStencilOp:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesStencilOpSeparate:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states_stencil_op_separate."""
+
     class Meta:
         global_type = False
 

@@ -65,6 +65,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class Float1X1:
+    """A type without a name in the schema: float1x1."""
+
     class Meta:
         global_type = False
 
@@ -73,6 +75,8 @@ class Float1X1:
 
 @dataclass(slots=True, kw_only=True)
 class Float1X2:
+    """A type without a name in the schema: float1x2."""
+
     class Meta:
         global_type = False
 
@@ -87,6 +91,8 @@ class Float1X2:
 
 @dataclass(slots=True, kw_only=True)
 class Float1X3:
+    """A type without a name in the schema: float1x3."""
+
     class Meta:
         global_type = False
 
@@ -101,6 +107,8 @@ class Float1X3:
 
 @dataclass(slots=True, kw_only=True)
 class Float1X4:
+    """A type without a name in the schema: float1x4."""
+
     class Meta:
         global_type = False
 
@@ -114,6 +122,8 @@ class Float1X4:
 
 
 class GlesEnumerationType(Enum):
+    """The values of gles_enumeration_type."""
+
     ZERO = "ZERO"
     ONE = "ONE"
     SRC_COLOR = "SRC_COLOR"
@@ -182,6 +192,8 @@ class GlesEnumerationType(Enum):
 
 @dataclass(slots=True, kw_only=True)
 class GlesSamplerTypeTexcoord:
+    """A type without a name in the schema: gles_sampler_type_texcoord."""
+
     class Meta:
         global_type = False
 
@@ -194,6 +206,8 @@ class GlesSamplerTypeTexcoord:
 
 
 class GlesSamplerWrapEnum(Enum):
+    """The values of gles_sampler_wrap_enum."""
+
     REPEAT = "REPEAT"
     CLAMP = "CLAMP"
     CLAMP_TO_EDGE = "CLAMP_TO_EDGE"
@@ -201,6 +215,8 @@ class GlesSamplerWrapEnum(Enum):
 
 
 class GlesStencilOpEnum(Enum):
+    """The values of gles_stencil_op_enum."""
+
     KEEP = "KEEP"
     ZERO = "ZERO"
     REPLACE = "REPLACE"
@@ -210,11 +226,15 @@ class GlesStencilOpEnum(Enum):
 
 
 class GlesTexcombinerOperandAlphaEnum(Enum):
+    """The values of gles_texcombiner_operand_alpha_enum."""
+
     SRC_ALPHA = "SRC_ALPHA"
     ONE_MINUS_SRC_ALPHA = "ONE_MINUS_SRC_ALPHA"
 
 
 class GlesTexcombinerOperandRgbEnum(Enum):
+    """The values of gles_texcombiner_operand_rgb_enum."""
+
     SRC_COLOR = "SRC_COLOR"
     ONE_MINUS_SRC_COLOR = "ONE_MINUS_SRC_COLOR"
     SRC_ALPHA = "SRC_ALPHA"
@@ -222,6 +242,8 @@ class GlesTexcombinerOperandRgbEnum(Enum):
 
 
 class GlesTexcombinerOperatorAlphaEnum(Enum):
+    """The values of gles_texcombiner_operator_alpha_enum."""
+
     REPLACE = "REPLACE"
     MODULATE = "MODULATE"
     ADD = "ADD"
@@ -231,6 +253,8 @@ class GlesTexcombinerOperatorAlphaEnum(Enum):
 
 
 class GlesTexcombinerOperatorRgbEnum(Enum):
+    """The values of gles_texcombiner_operator_rgb_enum."""
+
     REPLACE = "REPLACE"
     MODULATE = "MODULATE"
     ADD = "ADD"
@@ -242,6 +266,8 @@ class GlesTexcombinerOperatorRgbEnum(Enum):
 
 
 class GlesTexcombinerSourceEnum(Enum):
+    """The values of gles_texcombiner_source_enum."""
+
     TEXTURE = "TEXTURE"
     CONSTANT = "CONSTANT"
     PRIMARY = "PRIMARY"
@@ -249,6 +275,8 @@ class GlesTexcombinerSourceEnum(Enum):
 
 
 class GlesTexenvModeEnum(Enum):
+    """The values of gles_texenv_mode_enum."""
+
     REPLACE = "REPLACE"
     MODULATE = "MODULATE"
     DECAL = "DECAL"
@@ -258,6 +286,8 @@ class GlesTexenvModeEnum(Enum):
 
 @dataclass(slots=True, kw_only=True)
 class GlesTextureConstantType(Stated):
+    """The type gles_texture_constant_type."""
+
     class Meta:
         name = "gles_texture_constant_type"
 
@@ -279,6 +309,8 @@ class GlesTextureConstantType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesAlphaFuncValue(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_alpha_func_value."""
+
     class Meta:
         global_type = False
 
@@ -300,6 +332,8 @@ class ProfileGlesTypeTechniquePassStatesAlphaFuncValue(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesAlphaTestEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_alpha_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -319,6 +353,8 @@ class ProfileGlesTypeTechniquePassStatesAlphaTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesBlendEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_blend_enable."""
+
     class Meta:
         global_type = False
 
@@ -338,6 +374,8 @@ class ProfileGlesTypeTechniquePassStatesBlendEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesClipPlane(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_clip_plane."""
+
     class Meta:
         global_type = False
 
@@ -366,6 +404,8 @@ class ProfileGlesTypeTechniquePassStatesClipPlane(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesClipPlaneEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_clip_plane_enable."""
+
     class Meta:
         global_type = False
 
@@ -393,6 +433,8 @@ class ProfileGlesTypeTechniquePassStatesClipPlaneEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesColorLogicOpEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_color_logic_op_enable."""
+
     class Meta:
         global_type = False
 
@@ -412,6 +454,8 @@ class ProfileGlesTypeTechniquePassStatesColorLogicOpEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesColorMask(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_color_mask."""
+
     class Meta:
         global_type = False
 
@@ -433,6 +477,8 @@ class ProfileGlesTypeTechniquePassStatesColorMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesColorMaterialEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_color_material_enable."""
+
     class Meta:
         global_type = False
 
@@ -452,6 +498,8 @@ class ProfileGlesTypeTechniquePassStatesColorMaterialEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesCullFaceEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_cull_face_enable."""
+
     class Meta:
         global_type = False
 
@@ -471,6 +519,8 @@ class ProfileGlesTypeTechniquePassStatesCullFaceEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesDepthMask(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_depth_mask."""
+
     class Meta:
         global_type = False
 
@@ -490,6 +540,8 @@ class ProfileGlesTypeTechniquePassStatesDepthMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesDepthRange(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_depth_range."""
+
     class Meta:
         global_type = False
 
@@ -514,6 +566,8 @@ class ProfileGlesTypeTechniquePassStatesDepthRange(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesDepthTestEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_depth_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -533,6 +587,8 @@ class ProfileGlesTypeTechniquePassStatesDepthTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesDitherEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_dither_enable."""
+
     class Meta:
         global_type = False
 
@@ -552,6 +608,8 @@ class ProfileGlesTypeTechniquePassStatesDitherEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesFogColor(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_fog_color."""
+
     class Meta:
         global_type = False
 
@@ -578,6 +636,8 @@ class ProfileGlesTypeTechniquePassStatesFogColor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesFogDensity(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_fog_density."""
+
     class Meta:
         global_type = False
 
@@ -597,6 +657,8 @@ class ProfileGlesTypeTechniquePassStatesFogDensity(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesFogEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_fog_enable."""
+
     class Meta:
         global_type = False
 
@@ -616,6 +678,8 @@ class ProfileGlesTypeTechniquePassStatesFogEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesFogEnd(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_fog_end."""
+
     class Meta:
         global_type = False
 
@@ -635,6 +699,8 @@ class ProfileGlesTypeTechniquePassStatesFogEnd(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesFogStart(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_fog_start."""
+
     class Meta:
         global_type = False
 
@@ -654,6 +720,8 @@ class ProfileGlesTypeTechniquePassStatesFogStart(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightAmbient(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_ambient."""
+
     class Meta:
         global_type = False
 
@@ -687,6 +755,8 @@ class ProfileGlesTypeTechniquePassStatesLightAmbient(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightConstantAttenuation(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_constant_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -713,6 +783,8 @@ class ProfileGlesTypeTechniquePassStatesLightConstantAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightDiffuse(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_diffuse."""
+
     class Meta:
         global_type = False
 
@@ -746,6 +818,8 @@ class ProfileGlesTypeTechniquePassStatesLightDiffuse(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_enable."""
+
     class Meta:
         global_type = False
 
@@ -772,6 +846,8 @@ class ProfileGlesTypeTechniquePassStatesLightEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightLinearAttenuation(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_linear_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -798,6 +874,8 @@ class ProfileGlesTypeTechniquePassStatesLightLinearAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightModelAmbient(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_model_ambient."""
+
     class Meta:
         global_type = False
 
@@ -824,6 +902,8 @@ class ProfileGlesTypeTechniquePassStatesLightModelAmbient(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightModelTwoSideEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_model_two_side_enable."""
+
     class Meta:
         global_type = False
 
@@ -843,6 +923,8 @@ class ProfileGlesTypeTechniquePassStatesLightModelTwoSideEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightPosition(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_position."""
+
     class Meta:
         global_type = False
 
@@ -876,6 +958,8 @@ class ProfileGlesTypeTechniquePassStatesLightPosition(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightQuadraticAttenuation(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_quadratic_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -902,6 +986,8 @@ class ProfileGlesTypeTechniquePassStatesLightQuadraticAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightSpecular(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_specular."""
+
     class Meta:
         global_type = False
 
@@ -935,6 +1021,8 @@ class ProfileGlesTypeTechniquePassStatesLightSpecular(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightSpotCutoff(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_spot_cutoff."""
+
     class Meta:
         global_type = False
 
@@ -961,6 +1049,8 @@ class ProfileGlesTypeTechniquePassStatesLightSpotCutoff(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightSpotDirection(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_spot_direction."""
+
     class Meta:
         global_type = False
 
@@ -993,6 +1083,8 @@ class ProfileGlesTypeTechniquePassStatesLightSpotDirection(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightSpotExponent(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_light_spot_exponent."""
+
     class Meta:
         global_type = False
 
@@ -1019,6 +1111,8 @@ class ProfileGlesTypeTechniquePassStatesLightSpotExponent(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLightingEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_lighting_enable."""
+
     class Meta:
         global_type = False
 
@@ -1038,6 +1132,8 @@ class ProfileGlesTypeTechniquePassStatesLightingEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLineSmoothEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_line_smooth_enable."""
+
     class Meta:
         global_type = False
 
@@ -1057,6 +1153,8 @@ class ProfileGlesTypeTechniquePassStatesLineSmoothEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLineWidth(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_line_width."""
+
     class Meta:
         global_type = False
 
@@ -1076,6 +1174,8 @@ class ProfileGlesTypeTechniquePassStatesLineWidth(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesMaterialAmbient(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_material_ambient."""
+
     class Meta:
         global_type = False
 
@@ -1102,6 +1202,8 @@ class ProfileGlesTypeTechniquePassStatesMaterialAmbient(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesMaterialDiffuse(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_material_diffuse."""
+
     class Meta:
         global_type = False
 
@@ -1128,6 +1230,8 @@ class ProfileGlesTypeTechniquePassStatesMaterialDiffuse(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesMaterialEmission(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_material_emission."""
+
     class Meta:
         global_type = False
 
@@ -1154,6 +1258,8 @@ class ProfileGlesTypeTechniquePassStatesMaterialEmission(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesMaterialShininess(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_material_shininess."""
+
     class Meta:
         global_type = False
 
@@ -1173,6 +1279,8 @@ class ProfileGlesTypeTechniquePassStatesMaterialShininess(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesMaterialSpecular(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_material_specular."""
+
     class Meta:
         global_type = False
 
@@ -1199,6 +1307,8 @@ class ProfileGlesTypeTechniquePassStatesMaterialSpecular(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesModelViewMatrix(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_model_view_matrix."""
+
     class Meta:
         global_type = False
 
@@ -1237,6 +1347,8 @@ class ProfileGlesTypeTechniquePassStatesModelViewMatrix(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesMultisampleEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_multisample_enable."""
+
     class Meta:
         global_type = False
 
@@ -1256,6 +1368,8 @@ class ProfileGlesTypeTechniquePassStatesMultisampleEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesNormalizeEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_normalize_enable."""
+
     class Meta:
         global_type = False
 
@@ -1275,6 +1389,8 @@ class ProfileGlesTypeTechniquePassStatesNormalizeEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesPointDistanceAttenuation(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_point_distance_attenuation."""
+
     class Meta:
         global_type = False
 
@@ -1300,6 +1416,8 @@ class ProfileGlesTypeTechniquePassStatesPointDistanceAttenuation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesPointFadeThresholdSize(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_point_fade_threshold_size."""
+
     class Meta:
         global_type = False
 
@@ -1319,6 +1437,8 @@ class ProfileGlesTypeTechniquePassStatesPointFadeThresholdSize(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesPointSize(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_point_size."""
+
     class Meta:
         global_type = False
 
@@ -1338,6 +1458,8 @@ class ProfileGlesTypeTechniquePassStatesPointSize(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesPointSizeMax(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_point_size_max."""
+
     class Meta:
         global_type = False
 
@@ -1357,6 +1479,8 @@ class ProfileGlesTypeTechniquePassStatesPointSizeMax(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesPointSizeMin(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_point_size_min."""
+
     class Meta:
         global_type = False
 
@@ -1376,6 +1500,8 @@ class ProfileGlesTypeTechniquePassStatesPointSizeMin(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesPointSmoothEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_point_smooth_enable."""
+
     class Meta:
         global_type = False
 
@@ -1395,6 +1521,8 @@ class ProfileGlesTypeTechniquePassStatesPointSmoothEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesPolygonOffset(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_polygon_offset."""
+
     class Meta:
         global_type = False
 
@@ -1419,6 +1547,8 @@ class ProfileGlesTypeTechniquePassStatesPolygonOffset(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesPolygonOffsetFillEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_polygon_offset_fill_enable."""
+
     class Meta:
         global_type = False
 
@@ -1438,6 +1568,8 @@ class ProfileGlesTypeTechniquePassStatesPolygonOffsetFillEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesProjectionMatrix(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_projection_matrix."""
+
     class Meta:
         global_type = False
 
@@ -1476,6 +1608,8 @@ class ProfileGlesTypeTechniquePassStatesProjectionMatrix(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesRescaleNormalEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_rescale_normal_enable."""
+
     class Meta:
         global_type = False
 
@@ -1495,6 +1629,8 @@ class ProfileGlesTypeTechniquePassStatesRescaleNormalEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesSampleAlphaToCoverageEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_sample_alpha_to_coverage_enable."""
+
     class Meta:
         global_type = False
 
@@ -1514,6 +1650,8 @@ class ProfileGlesTypeTechniquePassStatesSampleAlphaToCoverageEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesSampleAlphaToOneEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_sample_alpha_to_one_enable."""
+
     class Meta:
         global_type = False
 
@@ -1533,6 +1671,8 @@ class ProfileGlesTypeTechniquePassStatesSampleAlphaToOneEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesSampleCoverageEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_sample_coverage_enable."""
+
     class Meta:
         global_type = False
 
@@ -1552,6 +1692,8 @@ class ProfileGlesTypeTechniquePassStatesSampleCoverageEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesScissor(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_scissor."""
+
     class Meta:
         global_type = False
 
@@ -1573,6 +1715,8 @@ class ProfileGlesTypeTechniquePassStatesScissor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesScissorTestEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_scissor_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -1592,6 +1736,8 @@ class ProfileGlesTypeTechniquePassStatesScissorTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilFuncMask(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_func_mask."""
+
     class Meta:
         global_type = False
 
@@ -1611,6 +1757,8 @@ class ProfileGlesTypeTechniquePassStatesStencilFuncMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilFuncRef(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_func_ref."""
+
     class Meta:
         global_type = False
 
@@ -1630,6 +1778,8 @@ class ProfileGlesTypeTechniquePassStatesStencilFuncRef(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilMask(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_mask."""
+
     class Meta:
         global_type = False
 
@@ -1649,6 +1799,8 @@ class ProfileGlesTypeTechniquePassStatesStencilMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilTestEnable(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -1668,6 +1820,8 @@ class ProfileGlesTypeTechniquePassStatesStencilTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class GlesSamplerType:
+    """The type gles_sampler_type."""
+
     class Meta:
         name = "gles_sampler_type"
 
@@ -1745,6 +1899,8 @@ class GlesSamplerType:
 
 @dataclass(slots=True, kw_only=True)
 class GlesTexcombinerArgumentAlphaType(Stated):
+    """The type gles_texcombiner_argument_alpha_type."""
+
     class Meta:
         name = "gles_texcombiner_argument_alpha_type"
 
@@ -1770,6 +1926,8 @@ class GlesTexcombinerArgumentAlphaType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class GlesTexcombinerArgumentRgbType(Stated):
+    """The type gles_texcombiner_argument_rgb_type."""
+
     class Meta:
         name = "gles_texcombiner_argument_rgb_type"
 
@@ -1795,6 +1953,8 @@ class GlesTexcombinerArgumentRgbType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class GlesTexenvCommandType:
+    """The type gles_texenv_command_type."""
+
     class Meta:
         name = "gles_texenv_command_type"
 
@@ -1821,6 +1981,8 @@ class GlesTexenvCommandType:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassEvaluate:
+    """A type without a name in the schema: profile_gles_type_technique_pass_evaluate."""
+
     class Meta:
         global_type = False
 
@@ -1877,6 +2039,8 @@ class ProfileGlesTypeTechniquePassEvaluate:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesAlphaFuncFunc(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_alpha_func_func."""
+
     class Meta:
         global_type = False
 
@@ -1896,6 +2060,8 @@ class ProfileGlesTypeTechniquePassStatesAlphaFuncFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesBlendFuncDest(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_blend_func_dest."""
+
     class Meta:
         global_type = False
 
@@ -1915,6 +2081,8 @@ class ProfileGlesTypeTechniquePassStatesBlendFuncDest(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesBlendFuncSrc(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_blend_func_src."""
+
     class Meta:
         global_type = False
 
@@ -1934,6 +2102,8 @@ class ProfileGlesTypeTechniquePassStatesBlendFuncSrc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesCullFace(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_cull_face."""
+
     class Meta:
         global_type = False
 
@@ -1953,6 +2123,8 @@ class ProfileGlesTypeTechniquePassStatesCullFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesDepthFunc(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_depth_func."""
+
     class Meta:
         global_type = False
 
@@ -1972,6 +2144,8 @@ class ProfileGlesTypeTechniquePassStatesDepthFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesFogMode(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_fog_mode."""
+
     class Meta:
         global_type = False
 
@@ -1991,6 +2165,8 @@ class ProfileGlesTypeTechniquePassStatesFogMode(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesFrontFace(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_front_face."""
+
     class Meta:
         global_type = False
 
@@ -2010,6 +2186,8 @@ class ProfileGlesTypeTechniquePassStatesFrontFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesLogicOp(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_logic_op."""
+
     class Meta:
         global_type = False
 
@@ -2029,6 +2207,8 @@ class ProfileGlesTypeTechniquePassStatesLogicOp(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesShadeModel(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_shade_model."""
+
     class Meta:
         global_type = False
 
@@ -2048,6 +2228,8 @@ class ProfileGlesTypeTechniquePassStatesShadeModel(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilFuncFunc(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_func_func."""
+
     class Meta:
         global_type = False
 
@@ -2067,6 +2249,8 @@ class ProfileGlesTypeTechniquePassStatesStencilFuncFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilOpFail(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_op_fail."""
+
     class Meta:
         global_type = False
 
@@ -2086,6 +2270,8 @@ class ProfileGlesTypeTechniquePassStatesStencilOpFail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilOpZfail(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_op_zfail."""
+
     class Meta:
         global_type = False
 
@@ -2105,6 +2291,8 @@ class ProfileGlesTypeTechniquePassStatesStencilOpZfail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilOpZpass(Stated):
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_op_zpass."""
+
     class Meta:
         global_type = False
 
@@ -2124,6 +2312,8 @@ class ProfileGlesTypeTechniquePassStatesStencilOpZpass(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class GlesNewparamType:
+    """The type gles_newparam_type."""
+
     class Meta:
         name = "gles_newparam_type"
 
@@ -2347,6 +2537,8 @@ class GlesNewparamType:
 
 @dataclass(slots=True, kw_only=True)
 class GlesTexcombinerCommandAlphaType:
+    """The type gles_texcombiner_command_alpha_type."""
+
     class Meta:
         name = "gles_texcombiner_command_alpha_type"
 
@@ -2375,6 +2567,8 @@ class GlesTexcombinerCommandAlphaType:
 
 @dataclass(slots=True, kw_only=True)
 class GlesTexcombinerCommandRgbType:
+    """The type gles_texcombiner_command_rgb_type."""
+
     class Meta:
         name = "gles_texcombiner_command_rgb_type"
 
@@ -2403,6 +2597,8 @@ class GlesTexcombinerCommandRgbType:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesAlphaFunc:
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_alpha_func."""
+
     class Meta:
         global_type = False
 
@@ -2422,6 +2618,8 @@ class ProfileGlesTypeTechniquePassStatesAlphaFunc:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesBlendFunc:
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_blend_func."""
+
     class Meta:
         global_type = False
 
@@ -2441,6 +2639,8 @@ class ProfileGlesTypeTechniquePassStatesBlendFunc:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilFunc:
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_func."""
+
     class Meta:
         global_type = False
 
@@ -2466,6 +2666,8 @@ class ProfileGlesTypeTechniquePassStatesStencilFunc:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesStencilOp:
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_stencil_op."""
+
     class Meta:
         global_type = False
 
@@ -2491,6 +2693,8 @@ class ProfileGlesTypeTechniquePassStatesStencilOp:
 
 @dataclass(slots=True, kw_only=True)
 class GlesTexcombinerCommandType:
+    """The type gles_texcombiner_command_type."""
+
     class Meta:
         name = "gles_texcombiner_command_type"
 
@@ -2520,6 +2724,8 @@ class GlesTexcombinerCommandType:
 
 @dataclass(slots=True, kw_only=True)
 class GlesTexturePipelineType:
+    """The type gles_texture_pipeline_type."""
+
     class Meta:
         name = "gles_texture_pipeline_type"
 
@@ -2558,6 +2764,8 @@ class GlesTexturePipelineType:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStatesTexturePipeline:
+    """A type without a name in the schema: profile_gles_type_technique_pass_states_texture_pipeline."""
+
     class Meta:
         global_type = False
 
@@ -2572,6 +2780,8 @@ class ProfileGlesTypeTechniquePassStatesTexturePipeline:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStates:
+    """A type without a name in the schema: profile_gles_type_technique_pass_states."""
+
     class Meta:
         global_type = False
 
@@ -3002,6 +3212,8 @@ class ProfileGlesTypeTechniquePassStates:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePass:
+    """A type without a name in the schema: profile_gles_type_technique_pass."""
+
     class Meta:
         global_type = False
 
@@ -3043,6 +3255,8 @@ class ProfileGlesTypeTechniquePass:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechnique:
+    """A type without a name in the schema: profile_gles_type_technique."""
+
     class Meta:
         global_type = False
 
@@ -3091,6 +3305,8 @@ class ProfileGlesTypeTechnique:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesType(Stated):
+    """The type profile_gles_type."""
+
     class Meta:
         name = "profile_gles_type"
 

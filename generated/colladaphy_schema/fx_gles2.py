@@ -44,6 +44,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class Bvec2:
+    """A type without a name in the schema: bvec2."""
+
     class Meta:
         global_type = False
 
@@ -58,6 +60,8 @@ class Bvec2:
 
 @dataclass(slots=True, kw_only=True)
 class Bvec3:
+    """A type without a name in the schema: bvec3."""
+
     class Meta:
         global_type = False
 
@@ -72,6 +76,8 @@ class Bvec3:
 
 @dataclass(slots=True, kw_only=True)
 class Bvec4:
+    """A type without a name in the schema: bvec4."""
+
     class Meta:
         global_type = False
 
@@ -86,6 +92,8 @@ class Bvec4:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2NewparamTypeUsertype:
+    """A type without a name in the schema: gles2_newparam_type_usertype."""
+
     class Meta:
         global_type = False
 
@@ -105,6 +113,8 @@ class Gles2NewparamTypeUsertype:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendColor(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_color."""
+
     class Meta:
         global_type = False
 
@@ -131,6 +141,8 @@ class Gles2PassTypeStatesBlendColor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_enable."""
+
     class Meta:
         global_type = False
 
@@ -150,6 +162,8 @@ class Gles2PassTypeStatesBlendEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesColorMask(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_color_mask."""
+
     class Meta:
         global_type = False
 
@@ -176,6 +190,8 @@ class Gles2PassTypeStatesColorMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesCullFaceEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_cull_face_enable."""
+
     class Meta:
         global_type = False
 
@@ -195,6 +211,8 @@ class Gles2PassTypeStatesCullFaceEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesDepthMask(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_depth_mask."""
+
     class Meta:
         global_type = False
 
@@ -214,6 +232,8 @@ class Gles2PassTypeStatesDepthMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesDepthRange(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_depth_range."""
+
     class Meta:
         global_type = False
 
@@ -238,6 +258,8 @@ class Gles2PassTypeStatesDepthRange(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesDepthTestEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_depth_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -257,6 +279,8 @@ class Gles2PassTypeStatesDepthTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesDitherEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_dither_enable."""
+
     class Meta:
         global_type = False
 
@@ -276,6 +300,8 @@ class Gles2PassTypeStatesDitherEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesLineWidth(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_line_width."""
+
     class Meta:
         global_type = False
 
@@ -295,6 +321,8 @@ class Gles2PassTypeStatesLineWidth(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesPointSize(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_point_size."""
+
     class Meta:
         global_type = False
 
@@ -314,6 +342,8 @@ class Gles2PassTypeStatesPointSize(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesPointSizeEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_point_size_enable."""
+
     class Meta:
         global_type = False
 
@@ -333,6 +363,8 @@ class Gles2PassTypeStatesPointSizeEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesPolygonOffset(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_polygon_offset."""
+
     class Meta:
         global_type = False
 
@@ -357,6 +389,8 @@ class Gles2PassTypeStatesPolygonOffset(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesPolygonOffsetFillEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_polygon_offset_fill_enable."""
+
     class Meta:
         global_type = False
 
@@ -376,6 +410,8 @@ class Gles2PassTypeStatesPolygonOffsetFillEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesSampleAlphaToCoverageEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_sample_alpha_to_coverage_enable."""
+
     class Meta:
         global_type = False
 
@@ -395,6 +431,8 @@ class Gles2PassTypeStatesSampleAlphaToCoverageEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesSampleCoverageEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_sample_coverage_enable."""
+
     class Meta:
         global_type = False
 
@@ -414,6 +452,8 @@ class Gles2PassTypeStatesSampleCoverageEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesSampleCoverageInvert:
+    """A type without a name in the schema: gles2_pass_type_states_sample_coverage_invert."""
+
     class Meta:
         global_type = False
 
@@ -433,6 +473,8 @@ class Gles2PassTypeStatesSampleCoverageInvert:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesSampleCoverageValue:
+    """A type without a name in the schema: gles2_pass_type_states_sample_coverage_value."""
+
     class Meta:
         global_type = False
 
@@ -452,6 +494,8 @@ class Gles2PassTypeStatesSampleCoverageValue:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesScissor(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_scissor."""
+
     class Meta:
         global_type = False
 
@@ -473,6 +517,8 @@ class Gles2PassTypeStatesScissor(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesScissorTestEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_scissor_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -492,6 +538,8 @@ class Gles2PassTypeStatesScissorTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilFuncMask(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_func_mask."""
+
     class Meta:
         global_type = False
 
@@ -511,6 +559,8 @@ class Gles2PassTypeStatesStencilFuncMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilFuncRef(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_func_ref."""
+
     class Meta:
         global_type = False
 
@@ -530,6 +580,8 @@ class Gles2PassTypeStatesStencilFuncRef(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilFuncSeparateMask(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_func_separate_mask."""
+
     class Meta:
         global_type = False
 
@@ -549,6 +601,8 @@ class Gles2PassTypeStatesStencilFuncSeparateMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilFuncSeparateRef(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_func_separate_ref."""
+
     class Meta:
         global_type = False
 
@@ -568,6 +622,8 @@ class Gles2PassTypeStatesStencilFuncSeparateRef(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilMask(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_mask."""
+
     class Meta:
         global_type = False
 
@@ -587,6 +643,8 @@ class Gles2PassTypeStatesStencilMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilMaskSeparateMask(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_mask_separate_mask."""
+
     class Meta:
         global_type = False
 
@@ -606,6 +664,8 @@ class Gles2PassTypeStatesStencilMaskSeparateMask(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilTestEnable(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_test_enable."""
+
     class Meta:
         global_type = False
 
@@ -625,6 +685,8 @@ class Gles2PassTypeStatesStencilTestEnable(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2ProgramTypeBindAttribute:
+    """A type without a name in the schema: gles2_program_type_bind_attribute."""
+
     class Meta:
         global_type = False
 
@@ -644,6 +706,8 @@ class Gles2ProgramTypeBindAttribute:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2ProgramTypeBindUniformParam:
+    """A type without a name in the schema: gles2_program_type_bind_uniform_param."""
+
     class Meta:
         global_type = False
 
@@ -656,6 +720,8 @@ class Gles2ProgramTypeBindUniformParam:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2ProgramTypeBindUniformUsertype:
+    """A type without a name in the schema: gles2_program_type_bind_uniform_usertype."""
+
     class Meta:
         global_type = False
 
@@ -675,6 +741,8 @@ class Gles2ProgramTypeBindUniformUsertype:
 
 @dataclass(slots=True, kw_only=True)
 class Ivec2:
+    """A type without a name in the schema: ivec2."""
+
     class Meta:
         global_type = False
 
@@ -689,6 +757,8 @@ class Ivec2:
 
 @dataclass(slots=True, kw_only=True)
 class Ivec3:
+    """A type without a name in the schema: ivec3."""
+
     class Meta:
         global_type = False
 
@@ -703,6 +773,8 @@ class Ivec3:
 
 @dataclass(slots=True, kw_only=True)
 class Ivec4:
+    """A type without a name in the schema: ivec4."""
+
     class Meta:
         global_type = False
 
@@ -717,6 +789,8 @@ class Ivec4:
 
 @dataclass(slots=True, kw_only=True)
 class Mat2:
+    """A type without a name in the schema: mat2."""
+
     class Meta:
         global_type = False
 
@@ -731,6 +805,8 @@ class Mat2:
 
 @dataclass(slots=True, kw_only=True)
 class Mat3:
+    """A type without a name in the schema: mat3."""
+
     class Meta:
         global_type = False
 
@@ -745,6 +821,8 @@ class Mat3:
 
 @dataclass(slots=True, kw_only=True)
 class Mat4:
+    """A type without a name in the schema: mat4."""
+
     class Meta:
         global_type = False
 
@@ -759,6 +837,8 @@ class Mat4:
 
 @dataclass(slots=True, kw_only=True)
 class Vec2:
+    """A type without a name in the schema: vec2."""
+
     class Meta:
         global_type = False
 
@@ -773,6 +853,8 @@ class Vec2:
 
 @dataclass(slots=True, kw_only=True)
 class Vec3:
+    """A type without a name in the schema: vec3."""
+
     class Meta:
         global_type = False
 
@@ -787,6 +869,8 @@ class Vec3:
 
 @dataclass(slots=True, kw_only=True)
 class Vec4:
+    """A type without a name in the schema: vec4."""
+
     class Meta:
         global_type = False
 
@@ -801,6 +885,8 @@ class Vec4:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2NewparamTypeArray:
+    """A type without a name in the schema: gles2_newparam_type_array."""
+
     class Meta:
         global_type = False
 
@@ -954,6 +1040,8 @@ class Gles2NewparamTypeArray:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeEvaluate:
+    """A type without a name in the schema: gles2_pass_type_evaluate."""
+
     class Meta:
         global_type = False
 
@@ -1010,6 +1098,8 @@ class Gles2PassTypeEvaluate:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendEquation(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_equation."""
+
     class Meta:
         global_type = False
 
@@ -1029,6 +1119,8 @@ class Gles2PassTypeStatesBlendEquation(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendEquationSeparateAlpha(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_equation_separate_alpha."""
+
     class Meta:
         global_type = False
 
@@ -1048,6 +1140,8 @@ class Gles2PassTypeStatesBlendEquationSeparateAlpha(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendEquationSeparateRgb(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_equation_separate_rgb."""
+
     class Meta:
         global_type = False
 
@@ -1067,6 +1161,8 @@ class Gles2PassTypeStatesBlendEquationSeparateRgb(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendFuncDest(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_func_dest."""
+
     class Meta:
         global_type = False
 
@@ -1086,6 +1182,8 @@ class Gles2PassTypeStatesBlendFuncDest(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendFuncSeparateDestAlpha(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_func_separate_dest_alpha."""
+
     class Meta:
         global_type = False
 
@@ -1105,6 +1203,8 @@ class Gles2PassTypeStatesBlendFuncSeparateDestAlpha(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendFuncSeparateDestRgb(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_func_separate_dest_rgb."""
+
     class Meta:
         global_type = False
 
@@ -1124,6 +1224,8 @@ class Gles2PassTypeStatesBlendFuncSeparateDestRgb(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendFuncSeparateSrcAlpha(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_func_separate_src_alpha."""
+
     class Meta:
         global_type = False
 
@@ -1143,6 +1245,8 @@ class Gles2PassTypeStatesBlendFuncSeparateSrcAlpha(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendFuncSeparateSrcRgb(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_func_separate_src_rgb."""
+
     class Meta:
         global_type = False
 
@@ -1162,6 +1266,8 @@ class Gles2PassTypeStatesBlendFuncSeparateSrcRgb(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendFuncSrc(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_blend_func_src."""
+
     class Meta:
         global_type = False
 
@@ -1181,6 +1287,8 @@ class Gles2PassTypeStatesBlendFuncSrc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesCullFace(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_cull_face."""
+
     class Meta:
         global_type = False
 
@@ -1200,6 +1308,8 @@ class Gles2PassTypeStatesCullFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesDepthFunc(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_depth_func."""
+
     class Meta:
         global_type = False
 
@@ -1219,6 +1329,8 @@ class Gles2PassTypeStatesDepthFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesFrontFace(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_front_face."""
+
     class Meta:
         global_type = False
 
@@ -1238,6 +1350,8 @@ class Gles2PassTypeStatesFrontFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesSampleCoverage:
+    """A type without a name in the schema: gles2_pass_type_states_sample_coverage."""
+
     class Meta:
         global_type = False
 
@@ -1257,6 +1371,8 @@ class Gles2PassTypeStatesSampleCoverage:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilFuncFunc(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_func_func."""
+
     class Meta:
         global_type = False
 
@@ -1276,6 +1392,8 @@ class Gles2PassTypeStatesStencilFuncFunc(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilFuncSeparateBack(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_func_separate_back."""
+
     class Meta:
         global_type = False
 
@@ -1295,6 +1413,8 @@ class Gles2PassTypeStatesStencilFuncSeparateBack(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilFuncSeparateFront(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_func_separate_front."""
+
     class Meta:
         global_type = False
 
@@ -1314,6 +1434,8 @@ class Gles2PassTypeStatesStencilFuncSeparateFront(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilMaskSeparateFace(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_mask_separate_face."""
+
     class Meta:
         global_type = False
 
@@ -1333,6 +1455,8 @@ class Gles2PassTypeStatesStencilMaskSeparateFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilOpFail(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_op_fail."""
+
     class Meta:
         global_type = False
 
@@ -1352,6 +1476,8 @@ class Gles2PassTypeStatesStencilOpFail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilOpSeparateFace(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_op_separate_face."""
+
     class Meta:
         global_type = False
 
@@ -1371,6 +1497,8 @@ class Gles2PassTypeStatesStencilOpSeparateFace(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilOpSeparateFail(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_op_separate_fail."""
+
     class Meta:
         global_type = False
 
@@ -1390,6 +1518,8 @@ class Gles2PassTypeStatesStencilOpSeparateFail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilOpSeparateZfail(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_op_separate_zfail."""
+
     class Meta:
         global_type = False
 
@@ -1409,6 +1539,8 @@ class Gles2PassTypeStatesStencilOpSeparateZfail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilOpSeparateZpass(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_op_separate_zpass."""
+
     class Meta:
         global_type = False
 
@@ -1428,6 +1560,8 @@ class Gles2PassTypeStatesStencilOpSeparateZpass(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilOpZfail(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_op_zfail."""
+
     class Meta:
         global_type = False
 
@@ -1447,6 +1581,8 @@ class Gles2PassTypeStatesStencilOpZfail(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilOpZpass(Stated):
+    """A type without a name in the schema: gles2_pass_type_states_stencil_op_zpass."""
+
     class Meta:
         global_type = False
 
@@ -1466,6 +1602,8 @@ class Gles2PassTypeStatesStencilOpZpass(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2ProgramTypeBindUniformArray:
+    """A type without a name in the schema: gles2_program_type_bind_uniform_array."""
+
     class Meta:
         global_type = False
 
@@ -1619,6 +1757,8 @@ class Gles2ProgramTypeBindUniformArray:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2ShaderTypeSources(FxSourcesType):
+    """A type without a name in the schema: gles2_shader_type_sources."""
+
     class Meta:
         global_type = False
 
@@ -1632,6 +1772,8 @@ class Gles2ShaderTypeSources(FxSourcesType):
 
 @dataclass(slots=True, kw_only=True)
 class Gles2NewparamType:
+    """The type gles2_newparam_type."""
+
     class Meta:
         name = "gles2_newparam_type"
 
@@ -1807,6 +1949,8 @@ class Gles2NewparamType:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2NewparamTypeUsertypeSetparam:
+    """A type without a name in the schema: gles2_newparam_type_usertype_setparam."""
+
     class Meta:
         global_type = False
 
@@ -1960,6 +2104,8 @@ class Gles2NewparamTypeUsertypeSetparam:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendEquationSeparate:
+    """A type without a name in the schema: gles2_pass_type_states_blend_equation_separate."""
+
     class Meta:
         global_type = False
 
@@ -1979,6 +2125,8 @@ class Gles2PassTypeStatesBlendEquationSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendFunc:
+    """A type without a name in the schema: gles2_pass_type_states_blend_func."""
+
     class Meta:
         global_type = False
 
@@ -1998,6 +2146,8 @@ class Gles2PassTypeStatesBlendFunc:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesBlendFuncSeparate:
+    """A type without a name in the schema: gles2_pass_type_states_blend_func_separate."""
+
     class Meta:
         global_type = False
 
@@ -2029,6 +2179,8 @@ class Gles2PassTypeStatesBlendFuncSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilFunc:
+    """A type without a name in the schema: gles2_pass_type_states_stencil_func."""
+
     class Meta:
         global_type = False
 
@@ -2054,6 +2206,8 @@ class Gles2PassTypeStatesStencilFunc:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilFuncSeparate:
+    """A type without a name in the schema: gles2_pass_type_states_stencil_func_separate."""
+
     class Meta:
         global_type = False
 
@@ -2085,6 +2239,8 @@ class Gles2PassTypeStatesStencilFuncSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilMaskSeparate:
+    """A type without a name in the schema: gles2_pass_type_states_stencil_mask_separate."""
+
     class Meta:
         global_type = False
 
@@ -2104,6 +2260,8 @@ class Gles2PassTypeStatesStencilMaskSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilOp:
+    """A type without a name in the schema: gles2_pass_type_states_stencil_op."""
+
     class Meta:
         global_type = False
 
@@ -2129,6 +2287,8 @@ class Gles2PassTypeStatesStencilOp:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStatesStencilOpSeparate:
+    """A type without a name in the schema: gles2_pass_type_states_stencil_op_separate."""
+
     class Meta:
         global_type = False
 
@@ -2160,6 +2320,8 @@ class Gles2PassTypeStatesStencilOpSeparate:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2ProgramTypeBindUniform:
+    """A type without a name in the schema: gles2_program_type_bind_uniform."""
+
     class Meta:
         global_type = False
 
@@ -2320,6 +2482,8 @@ class Gles2ProgramTypeBindUniform:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2ProgramTypeBindUniformUsertypeSetparam:
+    """A type without a name in the schema: gles2_program_type_bind_uniform_usertype_setparam."""
+
     class Meta:
         global_type = False
 
@@ -2473,6 +2637,8 @@ class Gles2ProgramTypeBindUniformUsertypeSetparam:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2ShaderType:
+    """The type gles2_shader_type."""
+
     class Meta:
         name = "gles2_shader_type"
 
@@ -2505,6 +2671,8 @@ class Gles2ShaderType:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStates:
+    """A type without a name in the schema: gles2_pass_type_states."""
+
     class Meta:
         global_type = False
 
@@ -2713,6 +2881,8 @@ class Gles2PassTypeStates:
 
 @dataclass(slots=True, kw_only=True)
 class Gles2ProgramType:
+    """The type gles2_program_type."""
+
     class Meta:
         name = "gles2_program_type"
 
@@ -2748,12 +2918,16 @@ class Gles2ProgramType:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGles2TypeNewparam(Gles2NewparamType):
+    """A type without a name in the schema: profile_gles2_type_newparam."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class Gles2PassType:
+    """The type gles2_pass_type."""
+
     class Meta:
         name = "gles2_pass_type"
 
@@ -2802,6 +2976,8 @@ class Gles2PassType:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGles2TypeTechnique:
+    """A type without a name in the schema: profile_gles2_type_technique."""
+
     class Meta:
         global_type = False
 
@@ -2850,6 +3026,8 @@ class ProfileGles2TypeTechnique:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGles2Type(Stated):
+    """The type profile_gles2_type."""
+
     class Meta:
         name = "profile_gles2_type"
 

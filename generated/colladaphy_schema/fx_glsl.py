@@ -159,6 +159,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class GlslArrayType:
+    """The type glsl_array_type."""
+
     class Meta:
         name = "glsl_array_type"
 
@@ -318,6 +320,8 @@ class GlslArrayType:
 
 @dataclass(slots=True, kw_only=True)
 class GlslProgramTypeBindAttribute:
+    """A type without a name in the schema: glsl_program_type_bind_attribute."""
+
     class Meta:
         global_type = False
 
@@ -337,6 +341,8 @@ class GlslProgramTypeBindAttribute:
 
 @dataclass(slots=True, kw_only=True)
 class GlslProgramTypeBindUniformParam:
+    """A type without a name in the schema: glsl_program_type_bind_uniform_param."""
+
     class Meta:
         global_type = False
 
@@ -349,6 +355,8 @@ class GlslProgramTypeBindUniformParam:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStates:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_states."""
+
     class Meta:
         global_type = False
 
@@ -1001,6 +1009,8 @@ class ProfileGlslTypeTechniquePassStates:
 
 @dataclass(slots=True, kw_only=True)
 class GlslNewparamType:
+    """The type glsl_newparam_type."""
+
     class Meta:
         name = "glsl_newparam_type"
 
@@ -1182,6 +1192,8 @@ class GlslNewparamType:
 
 @dataclass(slots=True, kw_only=True)
 class GlslProgramTypeBindUniform:
+    """A type without a name in the schema: glsl_program_type_bind_uniform."""
+
     class Meta:
         global_type = False
 
@@ -1348,6 +1360,8 @@ class GlslProgramTypeBindUniform:
 
 @dataclass(slots=True, kw_only=True)
 class GlslShaderType:
+    """The type glsl_shader_type."""
+
     class Meta:
         name = "glsl_shader_type"
 
@@ -1373,6 +1387,8 @@ class GlslShaderType:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassEvaluate:
+    """A type without a name in the schema: profile_glsl_type_technique_pass_evaluate."""
+
     class Meta:
         global_type = False
 
@@ -1429,6 +1445,8 @@ class ProfileGlslTypeTechniquePassEvaluate:
 
 @dataclass(slots=True, kw_only=True)
 class GlslProgramType:
+    """The type glsl_program_type."""
+
     class Meta:
         name = "glsl_program_type"
 
@@ -1457,6 +1475,8 @@ class GlslProgramType:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePass:
+    """A type without a name in the schema: profile_glsl_type_technique_pass."""
+
     class Meta:
         global_type = False
 
@@ -1505,6 +1525,8 @@ class ProfileGlslTypeTechniquePass:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechnique:
+    """A type without a name in the schema: profile_glsl_type_technique."""
+
     class Meta:
         global_type = False
 
@@ -1553,6 +1575,8 @@ class ProfileGlslTypeTechnique:
 
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslType(Stated):
+    """The type profile_glsl_type."""
+
     class Meta:
         name = "profile_glsl_type"
 

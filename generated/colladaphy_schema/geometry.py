@@ -23,6 +23,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class EllipsoidType:
+    """The type ellipsoid_type."""
+
     class Meta:
         name = "ellipsoid_type"
 
@@ -39,6 +41,8 @@ class EllipsoidType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceMaterialTypeBind:
+    """A type without a name in the schema: instance_material_type_bind."""
+
     class Meta:
         global_type = False
 
@@ -56,6 +60,8 @@ class InstanceMaterialTypeBind:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceMaterialTypeBindVertexInput:
+    """A type without a name in the schema: instance_material_type_bind_vertex_input."""
+
     class Meta:
         global_type = False
 
@@ -79,6 +85,8 @@ class InstanceMaterialTypeBindVertexInput:
 
 @dataclass(slots=True, kw_only=True)
 class BoxType:
+    """The type box_type."""
+
     class Meta:
         name = "box_type"
 
@@ -102,6 +110,8 @@ class BoxType:
 
 @dataclass(slots=True, kw_only=True)
 class CapsuleType:
+    """The type capsule_type."""
+
     class Meta:
         name = "capsule_type"
 
@@ -131,6 +141,8 @@ class CapsuleType:
 
 @dataclass(slots=True, kw_only=True)
 class CylinderType:
+    """The type cylinder_type."""
+
     class Meta:
         name = "cylinder_type"
 
@@ -160,6 +172,8 @@ class CylinderType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceMaterialType:
+    """The type instance_material_type."""
+
     class Meta:
         name = "instance_material_type"
 
@@ -210,6 +224,8 @@ class InstanceMaterialType:
 
 @dataclass(slots=True, kw_only=True)
 class LinesType:
+    """The type lines_type."""
+
     class Meta:
         name = "lines_type"
 
@@ -255,6 +271,8 @@ class LinesType:
 
 @dataclass(slots=True, kw_only=True)
 class LinestripsType:
+    """The type linestrips_type."""
+
     class Meta:
         name = "linestrips_type"
 
@@ -300,6 +318,8 @@ class LinestripsType:
 
 @dataclass(slots=True, kw_only=True)
 class PlaneType:
+    """The type plane_type."""
+
     class Meta:
         name = "plane_type"
 
@@ -323,6 +343,8 @@ class PlaneType:
 
 @dataclass(slots=True, kw_only=True)
 class PolygonsTypePh:
+    """A type without a name in the schema: polygons_type_ph."""
+
     class Meta:
         global_type = False
 
@@ -345,6 +367,8 @@ class PolygonsTypePh:
 
 @dataclass(slots=True, kw_only=True)
 class PolylistType(Stated):
+    """The type polylist_type."""
+
     class Meta:
         name = "polylist_type"
 
@@ -398,6 +422,8 @@ class PolylistType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class SphereType:
+    """The type sphere_type."""
+
     class Meta:
         name = "sphere_type"
 
@@ -418,6 +444,8 @@ class SphereType:
 
 @dataclass(slots=True, kw_only=True)
 class SplineTypeControlVertices:
+    """A type without a name in the schema: spline_type_control_vertices."""
+
     class Meta:
         global_type = False
 
@@ -440,6 +468,8 @@ class SplineTypeControlVertices:
 
 @dataclass(slots=True, kw_only=True)
 class TrianglesType:
+    """The type triangles_type."""
+
     class Meta:
         name = "triangles_type"
 
@@ -485,6 +515,8 @@ class TrianglesType:
 
 @dataclass(slots=True, kw_only=True)
 class TrifansType:
+    """The type trifans_type."""
+
     class Meta:
         name = "trifans_type"
 
@@ -530,6 +562,8 @@ class TrifansType:
 
 @dataclass(slots=True, kw_only=True)
 class TristripsType:
+    """The type tristrips_type."""
+
     class Meta:
         name = "tristrips_type"
 
@@ -575,6 +609,8 @@ class TristripsType:
 
 @dataclass(slots=True, kw_only=True)
 class VerticesType:
+    """The type vertices_type."""
+
     class Meta:
         name = "vertices_type"
 
@@ -608,6 +644,8 @@ class VerticesType:
 
 @dataclass(slots=True, kw_only=True)
 class BindMaterialTypeTechniqueCommon:
+    """A type without a name in the schema: bind_material_type_technique_common."""
+
     class Meta:
         global_type = False
 
@@ -623,6 +661,8 @@ class BindMaterialTypeTechniqueCommon:
 
 @dataclass(slots=True, kw_only=True)
 class PolygonsType:
+    """The type polygons_type."""
+
     class Meta:
         name = "polygons_type"
 
@@ -679,6 +719,8 @@ class PolygonsType:
 
 @dataclass(slots=True, kw_only=True)
 class SplineType(Stated):
+    """The type spline_type."""
+
     class Meta:
         name = "spline_type"
 
@@ -713,6 +755,8 @@ class SplineType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class BindMaterialType:
+    """The type bind_material_type."""
+
     class Meta:
         name = "bind_material_type"
 
@@ -747,6 +791,8 @@ class BindMaterialType:
 
 @dataclass(slots=True, kw_only=True)
 class ConvexMeshType:
+    """The type convex_mesh_type."""
+
     class Meta:
         name = "convex_mesh_type"
 
@@ -832,6 +878,8 @@ class ConvexMeshType:
 
 @dataclass(slots=True, kw_only=True)
 class MeshType:
+    """The type mesh_type."""
+
     class Meta:
         name = "mesh_type"
 
@@ -911,6 +959,8 @@ class MeshType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceGeometryType:
+    """The type instance_geometry_type."""
+
     class Meta:
         name = "instance_geometry_type"
 

@@ -15,6 +15,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class GeometryType:
+    """The type geometry_type."""
+
     class Meta:
         name = "geometry_type"
 
@@ -76,6 +78,8 @@ class GeometryType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryGeometriesType:
+    """The type library_geometries_type."""
+
     class Meta:
         name = "library_geometries_type"
 

@@ -16,6 +16,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 
 class ImageFaceEnum(Enum):
+    """The values of image_face_enum."""
+
     POSITIVE_X = "POSITIVE_X"
     NEGATIVE_X = "NEGATIVE_X"
     POSITIVE_Y = "POSITIVE_Y"
@@ -25,6 +27,8 @@ class ImageFaceEnum(Enum):
 
 
 class ImageFormatHintChannelsEnum(Enum):
+    """The values of image_format_hint_channels_enum."""
+
     RGB = "RGB"
     RGBA = "RGBA"
     RGBE = "RGBE"
@@ -34,6 +38,8 @@ class ImageFormatHintChannelsEnum(Enum):
 
 
 class ImageFormatHintPrecisionEnum(Enum):
+    """The values of image_format_hint_precision_enum."""
+
     DEFAULT = "DEFAULT"
     LOW = "LOW"
     MID = "MID"
@@ -42,6 +48,8 @@ class ImageFormatHintPrecisionEnum(Enum):
 
 
 class ImageFormatHintRangeEnum(Enum):
+    """The values of image_format_hint_range_enum."""
+
     SNORM = "SNORM"
     UNORM = "UNORM"
     SINT = "SINT"
@@ -51,6 +59,8 @@ class ImageFormatHintRangeEnum(Enum):
 
 @dataclass(slots=True, kw_only=True)
 class ImageMipsType:
+    """The type image_mips_type."""
+
     class Meta:
         name = "image_mips_type"
 
@@ -68,6 +78,8 @@ class ImageMipsType:
 
 @dataclass(slots=True, kw_only=True)
 class ImageSourceTypeHex:
+    """A type without a name in the schema: image_source_type_hex."""
+
     class Meta:
         global_type = False
 
@@ -87,6 +99,8 @@ class ImageSourceTypeHex:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate2DArray:
+    """A type without a name in the schema: image_type_create_2d_array."""
+
     class Meta:
         global_type = False
 
@@ -99,6 +113,8 @@ class ImageTypeCreate2DArray:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate2DSizeExact:
+    """A type without a name in the schema: image_type_create_2d_size_exact."""
+
     class Meta:
         global_type = False
 
@@ -116,6 +132,8 @@ class ImageTypeCreate2DSizeExact:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate2DSizeRatio:
+    """A type without a name in the schema: image_type_create_2d_size_ratio."""
+
     class Meta:
         global_type = False
 
@@ -133,6 +151,8 @@ class ImageTypeCreate2DSizeRatio:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate3DArray:
+    """A type without a name in the schema: image_type_create_3d_array."""
+
     class Meta:
         global_type = False
 
@@ -145,6 +165,8 @@ class ImageTypeCreate3DArray:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate3DSize:
+    """A type without a name in the schema: image_type_create_3d_size."""
+
     class Meta:
         global_type = False
 
@@ -167,6 +189,8 @@ class ImageTypeCreate3DSize:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreateCubeArray:
+    """A type without a name in the schema: image_type_create_cube_array."""
+
     class Meta:
         global_type = False
 
@@ -179,6 +203,8 @@ class ImageTypeCreateCubeArray:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreateCubeSize:
+    """A type without a name in the schema: image_type_create_cube_size."""
+
     class Meta:
         global_type = False
 
@@ -191,6 +217,8 @@ class ImageTypeCreateCubeSize:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeRenderable:
+    """A type without a name in the schema: image_type_renderable."""
+
     class Meta:
         global_type = False
 
@@ -203,6 +231,8 @@ class ImageTypeRenderable:
 
 @dataclass(slots=True, kw_only=True)
 class ImageSourceType(Stated):
+    """The type image_source_type."""
+
     class Meta:
         name = "image_source_type"
 
@@ -228,6 +258,8 @@ class ImageSourceType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate2DFormatHint(Stated):
+    """A type without a name in the schema: image_type_create_2d_format_hint."""
+
     class Meta:
         global_type = False
 
@@ -257,6 +289,8 @@ class ImageTypeCreate2DFormatHint(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate3DFormatHint(Stated):
+    """A type without a name in the schema: image_type_create_3d_format_hint."""
+
     class Meta:
         global_type = False
 
@@ -286,6 +320,8 @@ class ImageTypeCreate3DFormatHint(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreateCubeFormatHint(Stated):
+    """A type without a name in the schema: image_type_create_cube_format_hint."""
+
     class Meta:
         global_type = False
 
@@ -315,6 +351,8 @@ class ImageTypeCreateCubeFormatHint(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class InstanceImageType(InstanceWithExtraType):
+    """The type instance_image_type."""
+
     class Meta:
         name = "instance_image_type"
 
@@ -329,6 +367,8 @@ class InstanceImageType(InstanceWithExtraType):
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate2DFormat:
+    """A type without a name in the schema: image_type_create_2d_format."""
+
     class Meta:
         global_type = False
 
@@ -349,6 +389,8 @@ class ImageTypeCreate2DFormat:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate2DInitFrom(ImageSourceType):
+    """A type without a name in the schema: image_type_create_2d_init_from."""
+
     class Meta:
         global_type = False
 
@@ -367,6 +409,8 @@ class ImageTypeCreate2DInitFrom(ImageSourceType):
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate3DFormat:
+    """A type without a name in the schema: image_type_create_3d_format."""
+
     class Meta:
         global_type = False
 
@@ -387,6 +431,8 @@ class ImageTypeCreate3DFormat:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate3DInitFrom(ImageSourceType):
+    """A type without a name in the schema: image_type_create_3d_init_from."""
+
     class Meta:
         global_type = False
 
@@ -410,6 +456,8 @@ class ImageTypeCreate3DInitFrom(ImageSourceType):
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreateCubeFormat:
+    """A type without a name in the schema: image_type_create_cube_format."""
+
     class Meta:
         global_type = False
 
@@ -430,6 +478,8 @@ class ImageTypeCreateCubeFormat:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreateCubeInitFrom(ImageSourceType):
+    """A type without a name in the schema: image_type_create_cube_init_from."""
+
     class Meta:
         global_type = False
 
@@ -453,6 +503,8 @@ class ImageTypeCreateCubeInitFrom(ImageSourceType):
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeInitFrom(ImageSourceType):
+    """A type without a name in the schema: image_type_init_from."""
+
     class Meta:
         global_type = False
 
@@ -466,6 +518,8 @@ class ImageTypeInitFrom(ImageSourceType):
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate2D:
+    """A type without a name in the schema: image_type_create_2d."""
+
     class Meta:
         global_type = False
 
@@ -532,6 +586,8 @@ class ImageTypeCreate2D:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreate3D:
+    """A type without a name in the schema: image_type_create_3d."""
+
     class Meta:
         global_type = False
 
@@ -572,6 +628,8 @@ class ImageTypeCreate3D:
 
 @dataclass(slots=True, kw_only=True)
 class ImageTypeCreateCube:
+    """A type without a name in the schema: image_type_create_cube."""
+
     class Meta:
         global_type = False
 
@@ -612,6 +670,8 @@ class ImageTypeCreateCube:
 
 @dataclass(slots=True, kw_only=True)
 class ImageType:
+    """The type image_type."""
+
     class Meta:
         name = "image_type"
 
@@ -688,6 +748,8 @@ class ImageType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryImagesType:
+    """The type library_images_type."""
+
     class Meta:
         name = "library_images_type"
 

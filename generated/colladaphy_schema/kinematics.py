@@ -29,6 +29,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsFrameType:
+    """The type kinematics_frame_type."""
+
     class Meta:
         name = "kinematics_frame_type"
 
@@ -60,6 +62,8 @@ class KinematicsFrameType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsParamType:
+    """The type kinematics_param_type."""
+
     class Meta:
         name = "kinematics_param_type"
 
@@ -72,6 +76,8 @@ class KinematicsParamType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsSetparamType:
+    """The type kinematics_setparam_type."""
+
     class Meta:
         name = "kinematics_setparam_type"
 
@@ -118,6 +124,8 @@ class KinematicsSetparamType:
 
 @dataclass(slots=True, kw_only=True)
 class BindJointAxisType:
+    """The type bind_joint_axis_type."""
+
     class Meta:
         name = "bind_joint_axis_type"
 
@@ -143,6 +151,8 @@ class BindJointAxisType:
 
 @dataclass(slots=True, kw_only=True)
 class BindKinematicsModelType(CommonSidrefOrParamType):
+    """The type bind_kinematics_model_type."""
+
     class Meta:
         name = "bind_kinematics_model_type"
 
@@ -156,6 +166,8 @@ class BindKinematicsModelType(CommonSidrefOrParamType):
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsBindType:
+    """The type kinematics_bind_type."""
+
     class Meta:
         name = "kinematics_bind_type"
 
@@ -202,6 +214,8 @@ class KinematicsBindType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsIndexType(CommonIntOrParamType):
+    """The type kinematics_index_type."""
+
     class Meta:
         name = "kinematics_index_type"
 
@@ -215,6 +229,8 @@ class KinematicsIndexType(CommonIntOrParamType):
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsLimitsType:
+    """The type kinematics_limits_type."""
+
     class Meta:
         name = "kinematics_limits_type"
 
@@ -234,6 +250,8 @@ class KinematicsLimitsType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceArticulatedSystemType:
+    """The type instance_articulated_system_type."""
+
     class Meta:
         name = "instance_articulated_system_type"
 
@@ -286,6 +304,8 @@ class InstanceArticulatedSystemType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceKinematicsModelType:
+    """The type instance_kinematics_model_type."""
+
     class Meta:
         name = "instance_kinematics_model_type"
 
@@ -338,6 +358,8 @@ class InstanceKinematicsModelType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceKinematicsSceneType:
+    """The type instance_kinematics_scene_type."""
+
     class Meta:
         name = "instance_kinematics_scene_type"
 
@@ -404,6 +426,8 @@ class InstanceKinematicsSceneType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsAxisInfoType:
+    """The type kinematics_axis_info_type."""
+
     class Meta:
         name = "kinematics_axis_info_type"
 
@@ -481,6 +505,8 @@ class KinematicsAxisInfoType:
 
 @dataclass(slots=True, kw_only=True)
 class MotionAxisInfoType:
+    """The type motion_axis_info_type."""
+
     class Meta:
         name = "motion_axis_info_type"
 
@@ -554,6 +580,8 @@ class MotionAxisInfoType:
 
 @dataclass(slots=True, kw_only=True)
 class MotionEffectorInfoType:
+    """The type motion_effector_info_type."""
+
     class Meta:
         name = "motion_effector_info_type"
 
@@ -622,6 +650,8 @@ class MotionEffectorInfoType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsSceneType:
+    """The type kinematics_scene_type."""
+
     class Meta:
         name = "kinematics_scene_type"
 
@@ -669,6 +699,8 @@ class KinematicsSceneType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsTechniqueType:
+    """The type kinematics_technique_type."""
+
     class Meta:
         name = "kinematics_technique_type"
 
@@ -709,6 +741,8 @@ class KinematicsTechniqueType:
 
 @dataclass(slots=True, kw_only=True)
 class MotionTechniqueType:
+    """The type motion_technique_type."""
+
     class Meta:
         name = "motion_technique_type"
 
@@ -730,6 +764,8 @@ class MotionTechniqueType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsType:
+    """The type kinematics_type."""
+
     class Meta:
         name = "kinematics_type"
 
@@ -765,6 +801,8 @@ class KinematicsType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryKinematicsScenesType:
+    """The type library_kinematics_scenes_type."""
+
     class Meta:
         name = "library_kinematics_scenes_type"
 
@@ -806,6 +844,8 @@ class LibraryKinematicsScenesType:
 
 @dataclass(slots=True, kw_only=True)
 class MotionType:
+    """The type motion_type."""
+
     class Meta:
         name = "motion_type"
 
@@ -839,6 +879,8 @@ class MotionType:
 
 @dataclass(slots=True, kw_only=True)
 class ArticulatedSystemType:
+    """The type articulated_system_type."""
+
     class Meta:
         name = "articulated_system_type"
 
@@ -890,6 +932,8 @@ class ArticulatedSystemType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryArticulatedSystemsType:
+    """The type library_articulated_systems_type."""
+
     class Meta:
         name = "library_articulated_systems_type"
 

@@ -22,6 +22,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class AxisType:
+    """The type axis_type."""
+
     class Meta:
         name = "axis_type"
 
@@ -48,6 +50,8 @@ class AxisType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsNewparamType:
+    """The type kinematics_newparam_type."""
+
     class Meta:
         name = "kinematics_newparam_type"
 
@@ -90,6 +94,8 @@ class KinematicsNewparamType:
 
 @dataclass(slots=True, kw_only=True)
 class LimitsSubType:
+    """The type limits_sub_type."""
+
     class Meta:
         name = "limits_sub_type"
 
@@ -104,6 +110,8 @@ class LimitsSubType:
 
 @dataclass(slots=True, kw_only=True)
 class LinkTypeAttachmentEnd:
+    """A type without a name in the schema: link_type_attachment_end."""
+
     class Meta:
         global_type = False
 
@@ -134,6 +142,8 @@ class LinkTypeAttachmentEnd:
 
 @dataclass(slots=True, kw_only=True)
 class LinkTypeAttachmentStart:
+    """A type without a name in the schema: link_type_attachment_start."""
+
     class Meta:
         global_type = False
 
@@ -164,6 +174,8 @@ class LinkTypeAttachmentStart:
 
 @dataclass(slots=True, kw_only=True)
 class MinmaxType:
+    """The type minmax_type."""
+
     class Meta:
         name = "minmax_type"
 
@@ -184,6 +196,8 @@ class MinmaxType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceJointType(InstanceWithExtraType):
+    """The type instance_joint_type."""
+
     class Meta:
         name = "instance_joint_type"
 
@@ -198,6 +212,8 @@ class InstanceJointType(InstanceWithExtraType):
 
 @dataclass(slots=True, kw_only=True)
 class JointLimitsType:
+    """The type joint_limits_type."""
+
     class Meta:
         name = "joint_limits_type"
 
@@ -219,6 +235,8 @@ class JointLimitsType:
 
 @dataclass(slots=True, kw_only=True)
 class LinkType:
+    """The type link_type."""
+
     class Meta:
         name = "link_type"
 
@@ -281,6 +299,8 @@ class LinkType:
 
 @dataclass(slots=True, kw_only=True)
 class AxisConstraintType:
+    """The type axis_constraint_type."""
+
     class Meta:
         name = "axis_constraint_type"
 
@@ -307,6 +327,8 @@ class AxisConstraintType:
 
 @dataclass(slots=True, kw_only=True)
 class LinkTypeAttachmentFull:
+    """A type without a name in the schema: link_type_attachment_full."""
+
     class Meta:
         global_type = False
 
@@ -343,18 +365,24 @@ class LinkTypeAttachmentFull:
 
 @dataclass(slots=True, kw_only=True)
 class Prismatic(AxisConstraintType):
+    """A type without a name in the schema: prismatic."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class Revolute(AxisConstraintType):
+    """A type without a name in the schema: revolute."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class JointType:
+    """The type joint_type."""
+
     class Meta:
         name = "joint_type"
 
@@ -405,6 +433,8 @@ class JointType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsModelTechniqueType:
+    """The type kinematics_model_technique_type."""
+
     class Meta:
         name = "kinematics_model_technique_type"
 
@@ -463,6 +493,8 @@ class KinematicsModelTechniqueType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryJointsType:
+    """The type library_joints_type."""
+
     class Meta:
         name = "library_joints_type"
 
@@ -504,6 +536,8 @@ class LibraryJointsType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsModelType:
+    """The type kinematics_model_type."""
+
     class Meta:
         name = "kinematics_model_type"
 
@@ -550,6 +584,8 @@ class KinematicsModelType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryKinematicsModelsType:
+    """The type library_kinematics_models_type."""
+
     class Meta:
         name = "library_kinematics_models_type"
 

@@ -22,6 +22,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class Bool:
+    """A type without a name in the schema: bool."""
+
     class Meta:
         global_type = False
 
@@ -30,6 +32,8 @@ class Bool:
 
 @dataclass(slots=True, kw_only=True)
 class Bool2:
+    """A type without a name in the schema: bool2."""
+
     class Meta:
         global_type = False
 
@@ -44,6 +48,8 @@ class Bool2:
 
 @dataclass(slots=True, kw_only=True)
 class Bool3:
+    """A type without a name in the schema: bool3."""
+
     class Meta:
         global_type = False
 
@@ -58,6 +64,8 @@ class Bool3:
 
 @dataclass(slots=True, kw_only=True)
 class Bool4:
+    """A type without a name in the schema: bool4."""
+
     class Meta:
         global_type = False
 
@@ -72,6 +80,8 @@ class Bool4:
 
 @dataclass(slots=True, kw_only=True)
 class Float:
+    """A type without a name in the schema: float."""
+
     class Meta:
         global_type = False
 
@@ -80,6 +90,8 @@ class Float:
 
 @dataclass(slots=True, kw_only=True)
 class Float2:
+    """A type without a name in the schema: float2."""
+
     class Meta:
         global_type = False
 
@@ -94,6 +106,8 @@ class Float2:
 
 @dataclass(slots=True, kw_only=True)
 class Float2X1:
+    """A type without a name in the schema: float2x1."""
+
     class Meta:
         global_type = False
 
@@ -108,6 +122,8 @@ class Float2X1:
 
 @dataclass(slots=True, kw_only=True)
 class Float2X2:
+    """A type without a name in the schema: float2x2."""
+
     class Meta:
         global_type = False
 
@@ -122,6 +138,8 @@ class Float2X2:
 
 @dataclass(slots=True, kw_only=True)
 class Float2X3:
+    """A type without a name in the schema: float2x3."""
+
     class Meta:
         global_type = False
 
@@ -136,6 +154,8 @@ class Float2X3:
 
 @dataclass(slots=True, kw_only=True)
 class Float2X4:
+    """A type without a name in the schema: float2x4."""
+
     class Meta:
         global_type = False
 
@@ -150,6 +170,8 @@ class Float2X4:
 
 @dataclass(slots=True, kw_only=True)
 class Float3:
+    """A type without a name in the schema: float3."""
+
     class Meta:
         global_type = False
 
@@ -164,6 +186,8 @@ class Float3:
 
 @dataclass(slots=True, kw_only=True)
 class Float3X1:
+    """A type without a name in the schema: float3x1."""
+
     class Meta:
         global_type = False
 
@@ -178,6 +202,8 @@ class Float3X1:
 
 @dataclass(slots=True, kw_only=True)
 class Float3X2:
+    """A type without a name in the schema: float3x2."""
+
     class Meta:
         global_type = False
 
@@ -192,6 +218,8 @@ class Float3X2:
 
 @dataclass(slots=True, kw_only=True)
 class Float3X3:
+    """A type without a name in the schema: float3x3."""
+
     class Meta:
         global_type = False
 
@@ -206,6 +234,8 @@ class Float3X3:
 
 @dataclass(slots=True, kw_only=True)
 class Float3X4:
+    """A type without a name in the schema: float3x4."""
+
     class Meta:
         global_type = False
 
@@ -220,6 +250,8 @@ class Float3X4:
 
 @dataclass(slots=True, kw_only=True)
 class Float4:
+    """A type without a name in the schema: float4."""
+
     class Meta:
         global_type = False
 
@@ -234,6 +266,8 @@ class Float4:
 
 @dataclass(slots=True, kw_only=True)
 class Float4X1:
+    """A type without a name in the schema: float4x1."""
+
     class Meta:
         global_type = False
 
@@ -248,6 +282,8 @@ class Float4X1:
 
 @dataclass(slots=True, kw_only=True)
 class Float4X2:
+    """A type without a name in the schema: float4x2."""
+
     class Meta:
         global_type = False
 
@@ -262,6 +298,8 @@ class Float4X2:
 
 @dataclass(slots=True, kw_only=True)
 class Float4X3:
+    """A type without a name in the schema: float4x3."""
+
     class Meta:
         global_type = False
 
@@ -276,6 +314,8 @@ class Float4X3:
 
 @dataclass(slots=True, kw_only=True)
 class Float4X4:
+    """A type without a name in the schema: float4x4."""
+
     class Meta:
         global_type = False
 
@@ -290,6 +330,8 @@ class Float4X4:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceEffectTypeTechniqueHint:
+    """A type without a name in the schema: instance_effect_type_technique_hint."""
+
     class Meta:
         global_type = False
 
@@ -314,6 +356,8 @@ class InstanceEffectTypeTechniqueHint:
 
 @dataclass(slots=True, kw_only=True)
 class Int:
+    """A type without a name in the schema: int."""
+
     class Meta:
         global_type = False
 
@@ -322,6 +366,8 @@ class Int:
 
 @dataclass(slots=True, kw_only=True)
 class Int2:
+    """A type without a name in the schema: int2."""
+
     class Meta:
         global_type = False
 
@@ -336,6 +382,8 @@ class Int2:
 
 @dataclass(slots=True, kw_only=True)
 class Int3:
+    """A type without a name in the schema: int3."""
+
     class Meta:
         global_type = False
 
@@ -350,6 +398,8 @@ class Int3:
 
 @dataclass(slots=True, kw_only=True)
 class Int4:
+    """A type without a name in the schema: int4."""
+
     class Meta:
         global_type = False
 
@@ -364,6 +414,8 @@ class Int4:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceEffectTypeSetparamSamplerStates(Stated):
+    """A type without a name in the schema: instance_effect_type_setparam_sampler_states."""
+
     class Meta:
         global_type = False
 
@@ -457,6 +509,8 @@ class InstanceEffectTypeSetparamSamplerStates(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class InstanceEffectTypeSetparam:
+    """A type without a name in the schema: instance_effect_type_setparam."""
+
     class Meta:
         global_type = False
 
@@ -641,6 +695,8 @@ class InstanceEffectTypeSetparam:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceEffectType:
+    """The type instance_effect_type."""
+
     class Meta:
         name = "instance_effect_type"
 
@@ -686,6 +742,8 @@ class InstanceEffectType:
 
 @dataclass(slots=True, kw_only=True)
 class MaterialType:
+    """The type material_type."""
+
     class Meta:
         name = "material_type"
 
@@ -725,6 +783,8 @@ class MaterialType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryMaterialsType:
+    """The type library_materials_type."""
+
     class Meta:
         name = "library_materials_type"
 

@@ -9,6 +9,8 @@ __NAMESPACE__ = "http://www.w3.org/1998/Math/MathML"
 
 @dataclass(slots=True, kw_only=True)
 class Math:
+    """The element math."""
+
     class Meta:
         name = "math"
         namespace = "http://www.w3.org/1998/Math/MathML"

@@ -9,6 +9,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class CommonParamType:
+    """The type common_param_type."""
+
     class Meta:
         name = "common_param_type"
 
@@ -17,6 +19,8 @@ class CommonParamType:
 
 @dataclass(slots=True, kw_only=True)
 class KinematicsConnectParamType:
+    """The type kinematics_connect_param_type."""
+
     class Meta:
         name = "kinematics_connect_param_type"
 
@@ -29,6 +33,8 @@ class KinematicsConnectParamType:
 
 @dataclass(slots=True, kw_only=True)
 class CommonBoolOrParamType:
+    """The type common_bool_or_param_type."""
+
     class Meta:
         name = "common_bool_or_param_type"
 
@@ -54,6 +60,8 @@ class CommonBoolOrParamType:
 
 @dataclass(slots=True, kw_only=True)
 class CommonFloat2OrParamType:
+    """The type common_float2_or_param_type."""
+
     class Meta:
         name = "common_float2_or_param_type"
 
@@ -82,6 +90,8 @@ class CommonFloat2OrParamType:
 
 @dataclass(slots=True, kw_only=True)
 class CommonFloatOrParamType:
+    """The type common_float_or_param_type."""
+
     class Meta:
         name = "common_float_or_param_type"
 
@@ -107,6 +117,8 @@ class CommonFloatOrParamType:
 
 @dataclass(slots=True, kw_only=True)
 class CommonIntOrParamType:
+    """The type common_int_or_param_type."""
+
     class Meta:
         name = "common_int_or_param_type"
 
@@ -132,6 +144,8 @@ class CommonIntOrParamType:
 
 @dataclass(slots=True, kw_only=True)
 class CommonSidrefOrParamType:
+    """The type common_sidref_or_param_type."""
+
     class Meta:
         name = "common_sidref_or_param_type"
 

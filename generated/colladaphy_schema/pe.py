@@ -13,6 +13,8 @@ __NAMESPACE__ = "urn:colladaphy:pe:1"
 
 @dataclass(slots=True, kw_only=True)
 class BoxType:
+    """The type box_type."""
+
     class Meta:
         name = "box_type"
 
@@ -29,6 +31,8 @@ class BoxType:
 
 @dataclass(slots=True, kw_only=True)
 class EllipsoidType:
+    """The type ellipsoid_type."""
+
     class Meta:
         name = "ellipsoid_type"
 
@@ -45,6 +49,8 @@ class EllipsoidType:
 
 @dataclass(slots=True, kw_only=True)
 class EngineStateType:
+    """The type engine_state_type."""
+
     class Meta:
         name = "engine_state_type"
 
@@ -74,6 +80,8 @@ class EngineStateType:
 
 @dataclass(slots=True, kw_only=True)
 class FrameType(Stated):
+    """The type frame_type."""
+
     class Meta:
         name = "frame_type"
 
@@ -98,6 +106,8 @@ class FrameType(Stated):
 
 
 class JointKindType(Enum):
+    """The values of joint_kind_type."""
+
     FIXED = "fixed"
     HINGE = "hinge"
     SLIDER = "slider"
@@ -107,6 +117,8 @@ class JointKindType(Enum):
 
 @dataclass(slots=True, kw_only=True)
 class LimitsType:
+    """The type limits_type."""
+
     class Meta:
         name = "limits_type"
 
@@ -132,6 +144,8 @@ class LimitsType:
 
 @dataclass(slots=True, kw_only=True)
 class MaterialType:
+    """The type material_type."""
+
     class Meta:
         name = "material_type"
 
@@ -214,6 +228,8 @@ class MaterialType:
 
 @dataclass(slots=True, kw_only=True)
 class MotionType(Stated):
+    """The type motion_type."""
+
     class Meta:
         name = "motion_type"
 
@@ -281,6 +297,8 @@ class MotionType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class PairType:
+    """The type pair_type."""
+
     class Meta:
         name = "pair_type"
 
@@ -316,6 +334,8 @@ class PairType:
 
 @dataclass(slots=True, kw_only=True)
 class PlaneType(Stated):
+    """The type plane_type."""
+
     class Meta:
         name = "plane_type"
 
@@ -348,6 +368,8 @@ class PlaneType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Radii:
+    """A type without a name in the schema: radii."""
+
     class Meta:
         global_type = False
 
@@ -362,6 +384,8 @@ class Radii:
 
 @dataclass(slots=True, kw_only=True)
 class Radius:
+    """A type without a name in the schema: radius."""
+
     class Meta:
         global_type = False
 
@@ -370,6 +394,8 @@ class Radius:
 
 @dataclass(slots=True, kw_only=True)
 class SphereType:
+    """The type sphere_type."""
+
     class Meta:
         name = "sphere_type"
 
@@ -383,6 +409,8 @@ class SphereType:
 
 @dataclass(slots=True, kw_only=True)
 class SpringType:
+    """The type spring_type."""
+
     class Meta:
         name = "spring_type"
 
@@ -408,6 +436,8 @@ class SpringType:
 
 @dataclass(slots=True, kw_only=True)
 class JointType:
+    """The type joint_type."""
+
     class Meta:
         name = "joint_type"
 
@@ -481,6 +511,8 @@ class JointType:
 
 @dataclass(slots=True, kw_only=True)
 class Material(MaterialType):
+    """The element material."""
+
     class Meta:
         name = "material"
         namespace = "urn:colladaphy:pe:1"
@@ -488,6 +520,8 @@ class Material(MaterialType):
 
 @dataclass(slots=True, kw_only=True)
 class Motion(MotionType):
+    """The element motion."""
+
     class Meta:
         name = "motion"
         namespace = "urn:colladaphy:pe:1"
@@ -495,6 +529,8 @@ class Motion(MotionType):
 
 @dataclass(slots=True, kw_only=True)
 class RodType:
+    """The type rod_type."""
+
     class Meta:
         name = "rod_type"
 
@@ -526,6 +562,8 @@ class RodType:
 
 @dataclass(slots=True, kw_only=True)
 class WorldType(Stated):
+    """The type world_type."""
+
     class Meta:
         name = "world_type"
 
@@ -606,18 +644,24 @@ class WorldType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Capsule(RodType):
+    """A type without a name in the schema: capsule."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class Cylinder(RodType):
+    """A type without a name in the schema: cylinder."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class Joint(JointType):
+    """The element joint."""
+
     class Meta:
         name = "joint"
         namespace = "urn:colladaphy:pe:1"
@@ -625,6 +669,8 @@ class Joint(JointType):
 
 @dataclass(slots=True, kw_only=True)
 class World(WorldType):
+    """The element world."""
+
     class Meta:
         name = "world"
         namespace = "urn:colladaphy:pe:1"
@@ -632,6 +678,8 @@ class World(WorldType):
 
 @dataclass(slots=True, kw_only=True)
 class ShapeType(Stated):
+    """The type shape_type."""
+
     class Meta:
         name = "shape_type"
 
@@ -743,6 +791,8 @@ class ShapeType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class UnionType(Stated):
+    """The type union_type."""
+
     class Meta:
         name = "union_type"
 
@@ -834,6 +884,8 @@ class UnionType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class BodyType(Stated):
+    """The type body_type."""
+
     class Meta:
         name = "body_type"
 
@@ -907,6 +959,8 @@ class BodyType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class Body(BodyType):
+    """The element body."""
+
     class Meta:
         name = "body"
         namespace = "urn:colladaphy:pe:1"

@@ -32,6 +32,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class InstanceRigidBodyTypeTechniqueCommonDynamic:
+    """A type without a name in the schema: instance_rigid_body_type_technique_common_dynamic."""
+
     class Meta:
         global_type = False
 
@@ -46,6 +48,8 @@ class InstanceRigidBodyTypeTechniqueCommonDynamic:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceRigidBodyTypeTechniqueCommonMassFrame:
+    """A type without a name in the schema: instance_rigid_body_type_technique_common_mass_frame."""
+
     class Meta:
         global_type = False
 
@@ -71,6 +75,8 @@ class InstanceRigidBodyTypeTechniqueCommonMassFrame:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceRigidBodyTypeTechniqueCommonShapeHollow:
+    """A type without a name in the schema: instance_rigid_body_type_technique_common_shape_hollow."""
+
     class Meta:
         global_type = False
 
@@ -85,6 +91,8 @@ class InstanceRigidBodyTypeTechniqueCommonShapeHollow:
 
 @dataclass(slots=True, kw_only=True)
 class RigidBodyTypeTechniqueCommonDynamic:
+    """A type without a name in the schema: rigid_body_type_technique_common_dynamic."""
+
     class Meta:
         global_type = False
 
@@ -99,6 +107,8 @@ class RigidBodyTypeTechniqueCommonDynamic:
 
 @dataclass(slots=True, kw_only=True)
 class RigidBodyTypeTechniqueCommonMassFrame:
+    """A type without a name in the schema: rigid_body_type_technique_common_mass_frame."""
+
     class Meta:
         global_type = False
 
@@ -124,6 +134,8 @@ class RigidBodyTypeTechniqueCommonMassFrame:
 
 @dataclass(slots=True, kw_only=True)
 class RigidBodyTypeTechniqueCommonShapeHollow:
+    """A type without a name in the schema: rigid_body_type_technique_common_shape_hollow."""
+
     class Meta:
         global_type = False
 
@@ -138,6 +150,8 @@ class RigidBodyTypeTechniqueCommonShapeHollow:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeTechniqueCommonEnabled:
+    """A type without a name in the schema: rigid_constraint_type_technique_common_enabled."""
+
     class Meta:
         global_type = False
 
@@ -152,6 +166,8 @@ class RigidConstraintTypeTechniqueCommonEnabled:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeTechniqueCommonInterpenetrate:
+    """A type without a name in the schema: rigid_constraint_type_technique_common_interpenetrate."""
+
     class Meta:
         global_type = False
 
@@ -166,6 +182,8 @@ class RigidConstraintTypeTechniqueCommonInterpenetrate:
 
 @dataclass(slots=True, kw_only=True)
 class ForceFieldType:
+    """The type force_field_type."""
+
     class Meta:
         name = "force_field_type"
 
@@ -207,6 +225,8 @@ class ForceFieldType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceForceFieldType(InstanceWithExtraType):
+    """The type instance_force_field_type."""
+
     class Meta:
         name = "instance_force_field_type"
 
@@ -221,6 +241,8 @@ class InstanceForceFieldType(InstanceWithExtraType):
 
 @dataclass(slots=True, kw_only=True)
 class InstancePhysicsMaterialType(InstanceWithExtraType):
+    """The type instance_physics_material_type."""
+
     class Meta:
         name = "instance_physics_material_type"
 
@@ -235,6 +257,8 @@ class InstancePhysicsMaterialType(InstanceWithExtraType):
 
 @dataclass(slots=True, kw_only=True)
 class InstanceRigidConstraintType:
+    """The type instance_rigid_constraint_type."""
+
     class Meta:
         name = "instance_rigid_constraint_type"
 
@@ -266,6 +290,8 @@ class InstanceRigidConstraintType:
 
 @dataclass(slots=True, kw_only=True)
 class PhysicsMaterialTypeTechniqueCommon:
+    """A type without a name in the schema: physics_material_type_technique_common."""
+
     class Meta:
         global_type = False
 
@@ -294,6 +320,8 @@ class PhysicsMaterialTypeTechniqueCommon:
 
 @dataclass(slots=True, kw_only=True)
 class PhysicsSceneTypeTechniqueCommon:
+    """A type without a name in the schema: physics_scene_type_technique_common."""
+
     class Meta:
         global_type = False
 
@@ -315,6 +343,8 @@ class PhysicsSceneTypeTechniqueCommon:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeAttachment:
+    """A type without a name in the schema: rigid_constraint_type_attachment."""
+
     class Meta:
         global_type = False
 
@@ -353,6 +383,8 @@ class RigidConstraintTypeAttachment:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeRefAttachment:
+    """A type without a name in the schema: rigid_constraint_type_ref_attachment."""
+
     class Meta:
         global_type = False
 
@@ -391,6 +423,8 @@ class RigidConstraintTypeRefAttachment:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeTechniqueCommonLimitsLinear:
+    """A type without a name in the schema: rigid_constraint_type_technique_common_limits_linear."""
+
     class Meta:
         global_type = False
 
@@ -412,6 +446,8 @@ class RigidConstraintTypeTechniqueCommonLimitsLinear:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeTechniqueCommonLimitsSwingConeAndTwist:
+    """A type without a name in the schema: rigid_constraint_type_technique_common_limits_swing_cone_and_twist."""
+
     class Meta:
         global_type = False
 
@@ -433,6 +469,8 @@ class RigidConstraintTypeTechniqueCommonLimitsSwingConeAndTwist:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeTechniqueCommonSpringAngular:
+    """A type without a name in the schema: rigid_constraint_type_technique_common_spring_angular."""
+
     class Meta:
         global_type = False
 
@@ -461,6 +499,8 @@ class RigidConstraintTypeTechniqueCommonSpringAngular:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeTechniqueCommonSpringLinear:
+    """A type without a name in the schema: rigid_constraint_type_technique_common_spring_linear."""
+
     class Meta:
         global_type = False
 
@@ -489,6 +529,8 @@ class RigidConstraintTypeTechniqueCommonSpringLinear:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryForceFieldsType:
+    """The type library_force_fields_type."""
+
     class Meta:
         name = "library_force_fields_type"
 
@@ -530,6 +572,8 @@ class LibraryForceFieldsType:
 
 @dataclass(slots=True, kw_only=True)
 class PhysicsMaterialType:
+    """The type physics_material_type."""
+
     class Meta:
         name = "physics_material_type"
 
@@ -576,6 +620,8 @@ class PhysicsMaterialType:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeTechniqueCommonLimits:
+    """A type without a name in the schema: rigid_constraint_type_technique_common_limits."""
+
     class Meta:
         global_type = False
 
@@ -597,6 +643,8 @@ class RigidConstraintTypeTechniqueCommonLimits:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeTechniqueCommonSpring:
+    """A type without a name in the schema: rigid_constraint_type_technique_common_spring."""
+
     class Meta:
         global_type = False
 
@@ -618,6 +666,8 @@ class RigidConstraintTypeTechniqueCommonSpring:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceRigidBodyTypeTechniqueCommonShape:
+    """A type without a name in the schema: instance_rigid_body_type_technique_common_shape."""
+
     class Meta:
         global_type = False
 
@@ -731,6 +781,8 @@ class InstanceRigidBodyTypeTechniqueCommonShape:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryPhysicsMaterialsType:
+    """The type library_physics_materials_type."""
+
     class Meta:
         name = "library_physics_materials_type"
 
@@ -772,6 +824,8 @@ class LibraryPhysicsMaterialsType:
 
 @dataclass(slots=True, kw_only=True)
 class RigidBodyTypeTechniqueCommonShape:
+    """A type without a name in the schema: rigid_body_type_technique_common_shape."""
+
     class Meta:
         global_type = False
 
@@ -885,6 +939,8 @@ class RigidBodyTypeTechniqueCommonShape:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeTechniqueCommon:
+    """A type without a name in the schema: rigid_constraint_type_technique_common."""
+
     class Meta:
         global_type = False
 
@@ -920,6 +976,8 @@ class RigidConstraintTypeTechniqueCommon:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceRigidBodyTypeTechniqueCommon(Stated):
+    """A type without a name in the schema: instance_rigid_body_type_technique_common."""
+
     class Meta:
         global_type = False
 
@@ -1000,6 +1058,8 @@ class InstanceRigidBodyTypeTechniqueCommon(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class RigidBodyTypeTechniqueCommon:
+    """A type without a name in the schema: rigid_body_type_technique_common."""
+
     class Meta:
         global_type = False
 
@@ -1063,6 +1123,8 @@ class RigidBodyTypeTechniqueCommon:
 
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintType:
+    """The type rigid_constraint_type."""
+
     class Meta:
         name = "rigid_constraint_type"
 
@@ -1113,6 +1175,8 @@ class RigidConstraintType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceRigidBodyType:
+    """The type instance_rigid_body_type."""
+
     class Meta:
         name = "instance_rigid_body_type"
 
@@ -1162,6 +1226,8 @@ class InstanceRigidBodyType:
 
 @dataclass(slots=True, kw_only=True)
 class RigidBodyType:
+    """The type rigid_body_type."""
+
     class Meta:
         name = "rigid_body_type"
 
@@ -1206,6 +1272,8 @@ class RigidBodyType:
 
 @dataclass(slots=True, kw_only=True)
 class InstancePhysicsModelType:
+    """The type instance_physics_model_type."""
+
     class Meta:
         name = "instance_physics_model_type"
 
@@ -1264,6 +1332,8 @@ class InstancePhysicsModelType:
 
 @dataclass(slots=True, kw_only=True)
 class PhysicsModelType:
+    """The type physics_model_type."""
+
     class Meta:
         name = "physics_model_type"
 
@@ -1318,6 +1388,8 @@ class PhysicsModelType:
 
 @dataclass(slots=True, kw_only=True)
 class PhysicsSceneType:
+    """The type physics_scene_type."""
+
     class Meta:
         name = "physics_scene_type"
 
@@ -1378,6 +1450,8 @@ class PhysicsSceneType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryPhysicsModelsType:
+    """The type library_physics_models_type."""
+
     class Meta:
         name = "library_physics_models_type"
 
@@ -1419,6 +1493,8 @@ class LibraryPhysicsModelsType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryPhysicsScenesType:
+    """The type library_physics_scenes_type."""
+
     class Meta:
         name = "library_physics_scenes_type"
 

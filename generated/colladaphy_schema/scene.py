@@ -24,6 +24,8 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 @dataclass(slots=True, kw_only=True)
 class LookatType:
+    """The type lookat_type."""
+
     class Meta:
         name = "lookat_type"
 
@@ -44,6 +46,8 @@ class LookatType:
 
 @dataclass(slots=True, kw_only=True)
 class MatrixType:
+    """The type matrix_type."""
+
     class Meta:
         name = "matrix_type"
 
@@ -63,12 +67,16 @@ class MatrixType:
 
 
 class NodeEnum(Enum):
+    """The values of node_enum."""
+
     JOINT = "JOINT"
     NODE = "NODE"
 
 
 @dataclass(slots=True, kw_only=True)
 class SkewType:
+    """The type skew_type."""
+
     class Meta:
         name = "skew_type"
 
@@ -89,6 +97,8 @@ class SkewType:
 
 @dataclass(slots=True, kw_only=True)
 class VisualSceneTypeEvaluateSceneRenderInstanceMaterialBind:
+    """A type without a name in the schema: visual_scene_type_evaluate_scene_render_instance_material_bind."""
+
     class Meta:
         global_type = False
 
@@ -106,6 +116,8 @@ class VisualSceneTypeEvaluateSceneRenderInstanceMaterialBind:
 
 @dataclass(slots=True, kw_only=True)
 class VisualSceneTypeEvaluateSceneRenderInstanceMaterialTechniqueOverride:
+    """A type without a name in the schema: visual_scene_type_evaluate_scene_render_instance_material_technique_override."""
+
     class Meta:
         global_type = False
 
@@ -125,12 +137,16 @@ class VisualSceneTypeEvaluateSceneRenderInstanceMaterialTechniqueOverride:
 
 @dataclass(slots=True, kw_only=True)
 class AspectRatio(TargetableFloatType):
+    """A type without a name in the schema: aspect_ratio."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class CameraTypeImager:
+    """A type without a name in the schema: camera_type_imager."""
+
     class Meta:
         global_type = False
 
@@ -153,6 +169,8 @@ class CameraTypeImager:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceCameraType(InstanceWithExtraType):
+    """The type instance_camera_type."""
+
     class Meta:
         name = "instance_camera_type"
 
@@ -167,6 +185,8 @@ class InstanceCameraType(InstanceWithExtraType):
 
 @dataclass(slots=True, kw_only=True)
 class InstanceControllerType:
+    """The type instance_controller_type."""
+
     class Meta:
         name = "instance_controller_type"
 
@@ -212,6 +232,8 @@ class InstanceControllerType:
 
 @dataclass(slots=True, kw_only=True)
 class InstanceLightType(InstanceWithExtraType):
+    """The type instance_light_type."""
+
     class Meta:
         name = "instance_light_type"
 
@@ -226,6 +248,8 @@ class InstanceLightType(InstanceWithExtraType):
 
 @dataclass(slots=True, kw_only=True)
 class InstanceNodeType(InstanceWithExtraType):
+    """The type instance_node_type."""
+
     class Meta:
         name = "instance_node_type"
 
@@ -239,6 +263,8 @@ class InstanceNodeType(InstanceWithExtraType):
 
 @dataclass(slots=True, kw_only=True)
 class LightTypeTechniqueCommonAmbient:
+    """A type without a name in the schema: light_type_technique_common_ambient."""
+
     class Meta:
         global_type = False
 
@@ -252,6 +278,8 @@ class LightTypeTechniqueCommonAmbient:
 
 @dataclass(slots=True, kw_only=True)
 class LightTypeTechniqueCommonDirectional:
+    """A type without a name in the schema: light_type_technique_common_directional."""
+
     class Meta:
         global_type = False
 
@@ -265,6 +293,8 @@ class LightTypeTechniqueCommonDirectional:
 
 @dataclass(slots=True, kw_only=True)
 class LightTypeTechniqueCommonPoint:
+    """A type without a name in the schema: light_type_technique_common_point."""
+
     class Meta:
         global_type = False
 
@@ -299,6 +329,8 @@ class LightTypeTechniqueCommonPoint:
 
 @dataclass(slots=True, kw_only=True)
 class LightTypeTechniqueCommonSpot:
+    """A type without a name in the schema: light_type_technique_common_spot."""
+
     class Meta:
         global_type = False
 
@@ -347,12 +379,16 @@ class LightTypeTechniqueCommonSpot:
 
 @dataclass(slots=True, kw_only=True)
 class ScaleType(TargetableFloat3Type):
+    """The type scale_type."""
+
     class Meta:
         name = "scale_type"
 
 
 @dataclass(slots=True, kw_only=True)
 class VisualSceneTypeEvaluateSceneRenderInstanceMaterial:
+    """A type without a name in the schema: visual_scene_type_evaluate_scene_render_instance_material."""
+
     class Meta:
         global_type = False
 
@@ -388,30 +424,40 @@ class VisualSceneTypeEvaluateSceneRenderInstanceMaterial:
 
 @dataclass(slots=True, kw_only=True)
 class Xfov(TargetableFloatType):
+    """A type without a name in the schema: xfov."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class Xmag(TargetableFloatType):
+    """A type without a name in the schema: xmag."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class Yfov(TargetableFloatType):
+    """A type without a name in the schema: yfov."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class Ymag(TargetableFloatType):
+    """A type without a name in the schema: ymag."""
+
     class Meta:
         global_type = False
 
 
 @dataclass(slots=True, kw_only=True)
 class CameraTypeOpticsTechniqueCommonOrthographic:
+    """A type without a name in the schema: camera_type_optics_technique_common_orthographic."""
+
     class Meta:
         global_type = False
 
@@ -455,6 +501,8 @@ class CameraTypeOpticsTechniqueCommonOrthographic:
 
 @dataclass(slots=True, kw_only=True)
 class CameraTypeOpticsTechniqueCommonPerspective:
+    """A type without a name in the schema: camera_type_optics_technique_common_perspective."""
+
     class Meta:
         global_type = False
 
@@ -498,6 +546,8 @@ class CameraTypeOpticsTechniqueCommonPerspective:
 
 @dataclass(slots=True, kw_only=True)
 class LightTypeTechniqueCommon:
+    """A type without a name in the schema: light_type_technique_common."""
+
     class Meta:
         global_type = False
 
@@ -539,6 +589,8 @@ class LightTypeTechniqueCommon:
 
 @dataclass(slots=True, kw_only=True)
 class NodeType(Stated):
+    """The type node_type."""
+
     class Meta:
         name = "node_type"
 
@@ -674,6 +726,8 @@ class NodeType(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class VisualSceneTypeEvaluateSceneRender:
+    """A type without a name in the schema: visual_scene_type_evaluate_scene_render."""
+
     class Meta:
         global_type = False
 
@@ -720,6 +774,8 @@ class VisualSceneTypeEvaluateSceneRender:
 
 @dataclass(slots=True, kw_only=True)
 class CameraTypeOpticsTechniqueCommon:
+    """A type without a name in the schema: camera_type_optics_technique_common."""
+
     class Meta:
         global_type = False
 
@@ -749,6 +805,8 @@ class CameraTypeOpticsTechniqueCommon:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryNodesType:
+    """The type library_nodes_type."""
+
     class Meta:
         name = "library_nodes_type"
 
@@ -790,6 +848,8 @@ class LibraryNodesType:
 
 @dataclass(slots=True, kw_only=True)
 class LightType:
+    """The type light_type."""
+
     class Meta:
         name = "light_type"
 
@@ -836,6 +896,8 @@ class LightType:
 
 @dataclass(slots=True, kw_only=True)
 class VisualSceneTypeEvaluateScene(Stated):
+    """A type without a name in the schema: visual_scene_type_evaluate_scene."""
+
     class Meta:
         global_type = False
 
@@ -888,6 +950,8 @@ class VisualSceneTypeEvaluateScene(Stated):
 
 @dataclass(slots=True, kw_only=True)
 class CameraTypeOptics:
+    """A type without a name in the schema: camera_type_optics."""
+
     class Meta:
         global_type = False
 
@@ -915,6 +979,8 @@ class CameraTypeOptics:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryLightsType:
+    """The type library_lights_type."""
+
     class Meta:
         name = "library_lights_type"
 
@@ -956,6 +1022,8 @@ class LibraryLightsType:
 
 @dataclass(slots=True, kw_only=True)
 class VisualSceneType:
+    """The type visual_scene_type."""
+
     class Meta:
         name = "visual_scene_type"
 
@@ -1004,6 +1072,8 @@ class VisualSceneType:
 
 @dataclass(slots=True, kw_only=True)
 class CameraType:
+    """The type camera_type."""
+
     class Meta:
         name = "camera_type"
 
@@ -1050,6 +1120,8 @@ class CameraType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryVisualScenesType:
+    """The type library_visual_scenes_type."""
+
     class Meta:
         name = "library_visual_scenes_type"
 
@@ -1091,6 +1163,8 @@ class LibraryVisualScenesType:
 
 @dataclass(slots=True, kw_only=True)
 class LibraryCamerasType:
+    """The type library_cameras_type."""
+
     class Meta:
         name = "library_cameras_type"
 

@@ -253,10 +253,10 @@ def edit(part: Any, data: st.DataObject) -> None:
         setattr(part, name, data.draw(st.floats(allow_nan=False)))
     elif isinstance(value, list) and value:
         action = data.draw(st.sampled_from(["double", "drop", "reverse", "rotate"]))
-        if action == "double":
+        if isinstance(value[0], float | int | bool | str | bytes):
+            value[0] = value[-1]  # such lists have a length of their own
+        elif action == "double":
             value.append(copy.deepcopy(value[0]))
-        elif isinstance(value[0], float | int | bool | str | bytes):
-            value[0] = value[-1]
         elif action == "drop":
             del value[data.draw(st.integers(0, len(value) - 1))]
         elif action == "reverse":

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from itertools import groupby
 from pathlib import Path
@@ -32,6 +33,7 @@ class BindingsGenerator(DataclassGenerator):
     def __init__(self, config: GeneratorConfig) -> None:
         super().__init__(config)
         self.stated: set[str] = set()
+        self.records: dict[str, Record] = {}
 
     def normalize_packages(self, classes: list[Class]) -> None:
         """Put all modules into one package, named after the schema files."""
@@ -43,6 +45,7 @@ class BindingsGenerator(DataclassGenerator):
     def render(self, classes: list[Class]) -> Iterator[GeneratorResult]:
         """Yield every file of the package."""
         model = Model(classes, self.filters)
+        self.records = model.records
         self.stated = {
             qname
             for qname, record in model.records.items()
@@ -140,13 +143,34 @@ class BindingsGenerator(DataclassGenerator):
         return [Import(qname=name, source="") for name in sorted(names - own)]
 
     def render_classes(self, classes: list[Class], module_namespace: str | None) -> str:
-        """The source of the classes; the roots of some remember stated defaults."""
-        output = super().render_classes(classes, module_namespace)
+        """The source of the classes, each with a docstring; some remember stated defaults.
+
+        Without a docstring, `dataclass` would make one of the signature, at a high price.
+        """
+        output = f"\n{super().render_classes(classes, module_namespace)}"
         for obj in classes:
-            if obj.qname in self.stated:
-                name = self.filters.class_name(obj.name)
-                output = output.replace(f"\nclass {name}:\n", f"\nclass {name}(Stated):\n")
+            name = self.filters.class_name(obj.name)
+            base = "Stated" if obj.qname in self.stated else ""
+            start = re.compile(rf"^class {name}(\((.*)\))?:$", re.MULTILINE)
+            found = start.search(output)
+            if found is None:
+                raise ValueError(f"class {name} was not rendered")
+            bases = ", ".join(part for part in (found[2], base) if part)
+            head = f"class {name}{f'({bases})' if bases else ''}:"
+            doc = f'    """{described(self.records[obj.qname], obj)}"""'
+            output = f"{output[: found.start()]}{head}\n{doc}\n{output[found.end() :]}"
         return output
+
+
+def described(record: Record, obj: Class) -> str:
+    """One line on what a class stands for."""
+    if record.is_enumeration:
+        return f"The values of {obj.name}."
+    if record.is_element:
+        return f"The element {obj.meta_name or obj.name}."
+    if record.is_type:
+        return f"The type {obj.meta_name or obj.name}."
+    return f"A type without a name in the schema: {obj.name}."
 
 
 def remembers(root: Record, model: Model) -> bool:
