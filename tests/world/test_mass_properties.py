@@ -63,7 +63,7 @@ def create(world: World, kind: str, dims: Any, **options: Any) -> Body:
     return world.create_capsule(1, (0, 0, 0), (x, y, z), length, "oak", **options)
 
 
-@settings(max_examples=12)
+@settings(max_examples=settings().max_examples // 8)
 @given(
     st.sampled_from(["ellipsoid", "cylinder", "capsule"]),
     st.tuples(lengths, lengths, lengths, lengths),

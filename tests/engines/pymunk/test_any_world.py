@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from hypothesis import given, settings
+from hypothesis import given
 from tests.strategies.worlds import worlds
 from tests.world.rebuilding import rebuilt
 
@@ -12,7 +12,6 @@ from colladaphy.findings import Severity
 from colladaphy.world import World, compare
 
 
-@settings(max_examples=100)
 @given(worlds())
 def test_any_world_is_run_or_refused(world: World) -> None:
     before = rebuilt(world)

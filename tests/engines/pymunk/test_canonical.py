@@ -93,7 +93,7 @@ def test_across_processes(scene: str, tmp_path: Path) -> None:
         assert done.stdout.strip() == digest(world)
 
 
-@settings(max_examples=15)
+@settings(max_examples=settings().max_examples // 7)
 @given(st.sampled_from(PLANAR), st.lists(st.integers(0, 60), min_size=1, max_size=4))
 def test_any_series_of_stores(scene: str, stops: list[int]) -> None:
     worlds = [SCENES[scene](), SCENES[scene]()]

@@ -142,7 +142,7 @@ def test_frames_are_right_handed(normal: tuple[float, float, float]) -> None:
         assert np.array_equal(again, vectors)
 
 
-@settings(max_examples=15)
+@settings(max_examples=settings().max_examples // 7)
 @given(st.tuples(*[st.floats(-3, 3)] * 3), st.tuples(*[st.floats(-3, 3)] * 3))
 def test_a_scene_turned_in_space_runs_the_same(angles: Any, shift: Any) -> None:
     """In any plane: the poses after some steps are the turned poses."""

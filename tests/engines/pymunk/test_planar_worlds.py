@@ -109,7 +109,7 @@ def finish(engine: PymunkEngine, world: World, steps: int) -> bool:
     return True
 
 
-@settings(max_examples=60)
+@settings(max_examples=settings().max_examples // 2)
 @given(planar_worlds(), st.lists(st.integers(1, 40), min_size=1, max_size=3))
 def test_planar_worlds_resume_exactly(world: World, stops: list[int]) -> None:
     going = PymunkEngine()
