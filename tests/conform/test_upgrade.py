@@ -20,6 +20,8 @@ from tests.conform.documents import (
 )
 
 from colladaphy.conform import conform, detect_version
+from colladaphy.conform.downgrade import to_collada_1_4
+from colladaphy.testing import covering_documents
 
 
 @pytest.mark.parametrize(
@@ -158,3 +160,9 @@ def test_the_namespace_decides_against_the_version_attribute() -> None:
     root, findings = mended(parse(f'<COLLADA xmlns="{NS_1_5}" version="1.4.1">{ASSET}</COLLADA>'))
     assert root.get("version") == "1.5.0"
     assert codes(findings) == {"repair-version"}
+
+
+def test_the_whole_schema_comes_back_from_1_4() -> None:
+    for text in list(covering_documents())[::15]:
+        there, _ = to_collada_1_4(etree.ElementTree(etree.fromstring(text)))
+        mended(there)

@@ -105,40 +105,36 @@ def _links(context: Context) -> list[_Link]:
         model = context.by_url(instance.get("url"))
         if model is not None:
             parents.setdefault(model, context.by_url(instance.get("parent")))
-    places: dict[tuple[etree._Element, etree._Element | None], Matrix | None] = {}
+    places: dict[etree._Element, Matrix | None] = {}
     links = []
     for body, node in body_targets(context).items():
         model = body.getparent()
         top = None if model is None else parents.get(model)
-        place = _place_below(node, top, places)
+        place = _place_in(node, places)
+        if top is not None and local(top) == "node" and _scene_of(top) is _scene_of(node):
+            above = _place_in(top, places)
+            place = None if above is None or place is None else inverse(above) @ place
         if place is not None:
             links.append(_Link(body, node, place))
     return links
 
 
-def _place_below(
-    node: etree._Element,
-    top: etree._Element | None,
-    known: dict[tuple[etree._Element, etree._Element | None], Matrix | None],
-) -> Matrix | None:
-    """Where `node` is in the space of `top` (or of its scene); a chain is computed only once."""
+def _scene_of(node: etree._Element) -> etree._Element | None:
+    """What a node hangs in: a visual scene, or the library of nodes."""
+    return next((above for above in node.iterancestors() if local(above) != "node"), None)
+
+
+def _place_in(node: etree._Element, known: dict[etree._Element, Matrix | None]) -> Matrix | None:
+    """Where a node is in its scene; None where a transform above it cannot be read."""
     chain = []
     current: etree._Element | None = node
-    while (
-        current is not None
-        and current is not top
-        and local(current) == "node"
-        and (current, top) not in known
-    ):
+    while current is not None and local(current) == "node" and current not in known:
         chain.append(current)
         current = current.getparent()
-    place: Matrix | None = np.eye(4)
-    if current is not None and (current, top) in known:
-        place = known[current, top]
+    place = known.get(current, np.eye(4)) if current is not None else np.eye(4)
     for step in reversed(chain):
         own = place_of(step)
-        place = None if own is None or place is None else place @ own
-        known[step, top] = place
+        place = known[step] = None if own is None or place is None else place @ own
     return place
 
 
