@@ -43,11 +43,14 @@ def translation(values: Sequence[float]) -> Matrix:
 
 
 def rotation(values: Sequence[float]) -> Matrix:
-    """The matrix of `<rotate>x y z degrees</rotate>`; an axis without length turns nothing."""
+    """The matrix of `<rotate>x y z degrees</rotate>`.
+
+    An axis without length turns nothing, nor does an angle that is no number.
+    """
     axis = np.asarray(values[:3], dtype=np.float64)
     result = np.eye(4)
     largest = np.max(np.abs(axis))
-    if not 0.0 < largest < math.inf:
+    if not 0.0 < largest < math.inf or not math.isfinite(values[3]):
         return result
     axis = axis / largest
     x, y, z = axis / math.sqrt(float(axis @ axis))
@@ -94,7 +97,7 @@ def _skew(values: Sequence[float]) -> Matrix:
     cosine = float(turned @ along)
     across = _unit(turned - cosine * along)
     height = float(turned @ across)
-    if height > 0.0:
+    if height > 0.0 and math.isfinite(values[0]):
         angle = math.atan2(cosine, height) + math.radians(values[0])
         result[:3, :3] += (math.tan(angle) - cosine / height) * np.outer(along, across)
     return result
@@ -136,7 +139,7 @@ def transform_of(children: Iterable[etree._Element]) -> Matrix:
 
 def inverse(matrix: Matrix) -> Matrix:
     """The transform that undoes `matrix`; of a singular one, what undoes its rigid part."""
-    if np.linalg.cond(matrix[:3, :3]) > 1e12:
+    if not np.all(np.isfinite(matrix[:3, :3])) or np.linalg.cond(matrix[:3, :3]) > 1e12:
         matrix = nearest_rotation(matrix)[0]
     return np.asarray(np.linalg.inv(matrix), dtype=np.float64)
 

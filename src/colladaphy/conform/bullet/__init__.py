@@ -12,6 +12,7 @@ from __future__ import annotations
 import copy
 from typing import cast
 
+import numpy as np
 from lxml import etree
 
 from colladaphy.conform.bullet import rules
@@ -52,6 +53,15 @@ def for_bullet(tree: etree._ElementTree) -> tuple[etree._ElementTree, list[Findi
     `tree` itself is not touched.
     """
     draft = Draft(copy.deepcopy(tree).getroot())
+    # Numbers may be of any size; what comes out as no number is written as none.
+    with np.errstate(all="ignore"):
+        _rewrite(draft)
+    _mark(draft)
+    new, findings = to_collada_1_4(etree.ElementTree(draft.root))
+    return new, draft.findings + findings
+
+
+def _rewrite(draft: Draft) -> None:
     scene = choose_scene(draft)
     draft.changed()
     levels: list[Level] = []
@@ -63,9 +73,6 @@ def for_bullet(tree: etree._ElementTree) -> tuple[etree._ElementTree, list[Findi
     geometries = Geometries(draft)
     _write_bodies(draft, levels, geometries)
     _write_everywhere(draft, geometries, levels)
-    _mark(draft)
-    new, findings = to_collada_1_4(etree.ElementTree(draft.root))
-    return new, draft.findings + findings
 
 
 def _models_of(draft: Draft, levels: list[Level]) -> list[etree._Element]:

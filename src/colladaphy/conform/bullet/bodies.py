@@ -121,7 +121,7 @@ def write_mass(draft: Draft, body: Body, weights: Weights) -> None:
     common = _common(body.element)
     mass = first(common, "mass")
     if mass is None and moves(body):
-        total = math.fsum(weights.masses(common))
+        total = sum(weights.masses(common))
         if 0.0 < total < math.inf:
             _insert_in_order(common, draft.make("mass", number_text(total)))
             message = f"The body {body.sid!r} got the mass {number_text(total)} of its shapes."

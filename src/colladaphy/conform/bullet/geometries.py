@@ -178,7 +178,7 @@ def _points(source: etree._Element) -> tuple[Floats | None, bool]:
     stride = int(accessor.get("stride", "1"))
     offset, count = int(accessor.get("offset", "0")), int(accessor.get("count", "0"))
     plain = (stride, offset, count * 3) == (3, 0, len(numbers))
-    if stride < 3:
+    if stride < 3 or max(stride, offset) > 1 << 40:
         return None, False
     count = min(count, max(0, (len(numbers) - offset - 3) // stride + 1))
     rows = offset + stride * np.arange(count)[:, None] + np.arange(3)

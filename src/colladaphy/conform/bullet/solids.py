@@ -29,7 +29,7 @@ def primitive_solid(name: str, values: Mapping[str, Sequence[float]]) -> Solid |
         x, y, z = values["half_extents"]
         volume = 8.0 * x * y * z
     elif name == "sphere":
-        volume = 4.0 / 3.0 * math.pi * values["radius"][0] ** 3
+        volume = 4.0 / 3.0 * math.pi * math.prod(3 * [values["radius"][0]])
     elif name == "cylinder":
         volume = math.pi * values["radius"][0] * values["radius"][1] * values["height"][0]
     elif name == "capsule":

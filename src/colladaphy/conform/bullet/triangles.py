@@ -24,9 +24,9 @@ def triangles_of(mesh: etree._Element, count: int) -> Integers:
         for faces in mesh
         for polygon in _polygons(faces)
         for triangle in _fan(polygon)
+        if max(triangle) < count
     ]  # fmt: skip
-    triangles = np.array(found, dtype=np.int64).reshape(-1, 3)
-    return triangles[np.all(triangles < count, axis=1)]
+    return np.array(found, dtype=np.int64).reshape(-1, 3)
 
 
 def _fan(polygon: Corners) -> Iterator[tuple[int, int, int]]:
