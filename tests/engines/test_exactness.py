@@ -65,7 +65,6 @@ def test_observing_does_not_disturb(engine: Engine, scene: str) -> None:
 
 RUNNER = """
 import sys
-import zlib
 from colladaphy.engines import Checkpoints, Simulation, digest
 from tests.engines.scenes import SCENES
 engine, scene, folder, what = sys.argv[1:]

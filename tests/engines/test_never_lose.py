@@ -69,13 +69,15 @@ def test_killed_at_random_moments(tmp_path: Path) -> None:
             assert found.findings == ()  # saved atomically: what has its name is whole
             assert found.world.step_count >= reached
             reached = found.world.step_count
-            assert len(checkpoints.paths()) <= 3  # one may be about to be removed
     assert reached > 0
     killed = Checkpoints(folder).newest().world
     straight = Simulation(SCENES["general"](), "mujoco")
     series = Checkpoints(tmp_path / "straight")
     straight.run(reached, checkpoints=series, checkpoint_every=1)
     assert compare(straight.world, killed) == []
+    # Kills between writing and removing have left too many; the next rotation mends that.
+    Simulation.resume(folder).run(1, checkpoints=Checkpoints(folder, keep=2), checkpoint_every=1)
+    assert len(Checkpoints(folder).paths()) == 2
 
 
 def test_killed_while_the_same_file_is_written_over(tmp_path: Path) -> None:

@@ -279,3 +279,17 @@ def test_many_bodies_at_once() -> None:
     Simulation(world, "mujoco").run(3)
     fall = 9.81 / 240**2 * 6
     np.testing.assert_allclose(world.positions[:, 2], -fall, rtol=1e-9)
+
+
+def test_contacts_beyond_memory_are_an_error_not_a_loss(monkeypatch: pytest.MonkeyPatch) -> None:
+    from colladaphy.engines.mujoco_engine import model
+
+    monkeypatch.setattr(model, "_MEMORY", 40_000)
+    monkeypatch.setattr(model, "_MEMORY_PER_SHAPE", 0)
+    world = World((0, 0, -9.81), time_step=1 / 240)
+    for i in range(12):
+        world.create_box(i, (0.1 * i, 0, 0), (1, 1, 1), "oak")
+    before = np.array(world.positions)
+    with pytest.raises(EngineError, match="engine-library"):
+        Simulation(world, "mujoco").run(3)
+    np.testing.assert_array_equal(world.positions, before)

@@ -15,7 +15,7 @@ from colladaphy.engines.mujoco_engine import memory, refusals
 from colladaphy.engines.mujoco_engine.model import Model, build
 from colladaphy.engines.mujoco_engine.motion import Motion
 from colladaphy.engines.protocol import Capabilities, Contact
-from colladaphy.engines.rules import DIVERGED, refuse
+from colladaphy.engines.rules import DIVERGED, LIBRARY, refuse
 from colladaphy.engines.state import pack, unpack
 from colladaphy.errors import EngineError
 from colladaphy.findings import Finding, Severity
@@ -25,6 +25,10 @@ if TYPE_CHECKING:
     from colladaphy.world import World
 
 __all__ = ["MujocoEngine"]
+
+_WARNINGS = mujoco.mjtWarning
+_FULL = (_WARNINGS.mjWARN_CONTACTFULL, _WARNINGS.mjWARN_CNSTRFULL)
+_BAD = (_WARNINGS.mjWARN_BADQPOS, _WARNINGS.mjWARN_BADQVEL, _WARNINGS.mjWARN_BADQACC)
 
 
 class MujocoEngine:
@@ -66,7 +70,8 @@ class MujocoEngine:
             errors = [f for f in refusals.check(world) if f.severity is Severity.ERROR]
             if errors:
                 raise EngineError(errors)
-            self._model = build(world)
+            with _quiet():
+                self._model = build(world)
             self._motion = Motion(world, self._model)
             self._key = key
         compiled = self._model.compiled
@@ -84,26 +89,33 @@ class MujocoEngine:
 
     def step(self, count: int = 1) -> None:
         """See `Engine.step`."""
-        assert self._model is not None
         if count < 1:
             return
-        with _quiet():
-            left = count
-            if self._pushed:
-                mujoco.mj_step(self._model.compiled, self._data)
-                self._data.xfrc_applied[:] = 0.0
-                self._pushed = False
-                left -= 1
-            if left:
-                mujoco.mj_step(self._model.compiled, self._data, nstep=left)
+        try:
+            with _quiet():
+                self._advance(count)
+        except mujoco.FatalError as error:
+            raise refuse(LIBRARY, f"MuJoCo gives up: {error}") from error
         self._stepped = True
         self._clock.advance(count)
+        self._look_for_trouble()
+
+    def _advance(self, count: int) -> None:
+        assert self._model is not None
+        if self._pushed:
+            mujoco.mj_step(self._model.compiled, self._data)
+            self._data.xfrc_applied[:] = 0.0
+            self._pushed = False
+            count -= 1
+        if count:
+            mujoco.mj_step(self._model.compiled, self._data, nstep=count)
+
+    def _look_for_trouble(self) -> None:
         warnings = self._data.warning
-        kinds = mujoco.mjtWarning
-        bad = sum(
-            warnings[kind].number
-            for kind in (kinds.mjWARN_BADQPOS, kinds.mjWARN_BADQVEL, kinds.mjWARN_BADQACC)
-        )
+        if any(warnings[kind].number for kind in _FULL):
+            message = f"MuJoCo ran out of memory for contacts by step {self._clock.step_count}."
+            raise refuse(LIBRARY, message)
+        bad = any(warnings[kind].number for kind in _BAD)
         finite = np.all(np.isfinite(self._data.qpos)) and np.all(np.isfinite(self._data.qvel))
         if bad or not finite:
             message = f"The simulation has diverged by step {self._clock.step_count}."
@@ -114,7 +126,8 @@ class MujocoEngine:
         assert self._model is not None and self._motion is not None
         motion, rows = self._motion, self._motion.rows
         if self._stepped:
-            motion.take(world, self._data)
+            with _quiet():
+                motion.take(world, self._data)
             world.forces[rows] = 0.0
             world.torques[rows] = 0.0
             asleep = np.append(self._data.tree_asleep, -1) >= 0  # tree -1: held by what is fixed
@@ -152,10 +165,11 @@ class MujocoEngine:
 
 @contextmanager
 def _quiet() -> Iterator[None]:
-    """MuJoCo's warnings are looked up in its data; it need not write them to a file as well."""
+    """What diverges is looked up in MuJoCo's data; it need not be told in other ways as well."""
     before = mujoco.get_mju_user_warning()
     mujoco.set_mju_user_warning(lambda _: None)
     try:
-        yield
+        with np.errstate(all="ignore"):
+            yield
     finally:
         mujoco.set_mju_user_warning(before)

@@ -33,6 +33,9 @@ _SLEEP = 0.05  # of the velocity that gravity gives in one step
 _SLEEP_MOST = 1e-3
 _HARD = 2.0  # steps: the least that MuJoCo is stable with
 _SOFT = 6.0  # steps: harder contacts are pushed off what they slide on
+# MuJoCo's own guess grows with the square of the number of bodies.
+_MEMORY = 32 << 20
+_MEMORY_PER_SHAPE = 128 << 10
 _FAR = 1e10  # what MuJoCo takes for infinity
 
 
@@ -63,6 +66,7 @@ def build(world: World) -> Model:
     for number in forest.loops:
         close(spec, joints[number], builder.bodies, _solref(world, _HARD))
     builder.add_contacts()
+    spec.memory = _MEMORY + _MEMORY_PER_SHAPE * len(builder.geoms)
     try:
         compiled = spec.compile()
     except (ValueError, mujoco.FatalError) as error:
@@ -89,7 +93,7 @@ def _set_options(spec: Any, world: World) -> None:
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     option.impratio = 10.0  # harder friction: less creep on slopes
     option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-    gravity = float(np.linalg.norm(world.gravity))
+    gravity = float(np.abs(world.gravity).max())
     option.sleep_tolerance = min(_SLEEP_MOST, _SLEEP * gravity * float(world.time_step or 0.0))
     # A run that diverges must fail, not start again; what joints bind may collide, unless they
     # say otherwise.

@@ -38,20 +38,30 @@ __all__ = ["check"]
 
 _LEAST = 1e-15  # mjMINVAL
 _MOST = 1e10  # mjMAXVAL
+_MOST_MASS = 1e20
 _NEAR = 1e-6
 
 
 def check(world: World) -> list[Finding]:
     """All findings about running `world`; those of severity error are refusals."""
-    findings = [*_bodies(world), *_shapes(world), *_joints(world)]
+    with np.errstate(all="ignore"):
+        findings = [*_gravity(world), *_bodies(world), *_shapes(world), *_joints(world)]
     findings += surface_findings(world, count_materials(world))
     return findings
+
+
+def _gravity(world: World) -> Iterator[Finding]:
+    if np.any(np.abs(world.gravity) > _MOST):
+        message = f"Gravity is {world.gravity.tolist()}, beyond what MuJoCo computes with."
+        yield SIZE.at(message=message)
 
 
 def _bodies(world: World) -> Iterator[Finding]:
     moving = ~world.fixed
     inertias = np.asarray(world.inertias)
-    moments = np.linalg.eigvalsh(0.5 * (inertias + np.swapaxes(inertias, 1, 2)))
+    huge = (np.abs(inertias).max(axis=(1, 2)) > _MOST_MASS) | (world.masses > _MOST_MASS)
+    tensors = np.where(huge[:, None, None], np.eye(3), inertias)
+    moments = np.linalg.eigvalsh(0.5 * (tensors + np.swapaxes(tensors, 1, 2)))
     massless = moving & ((world.masses <= 0) | (moments[:, 0] <= 0))
     tiny = moving & ~massless & ((world.masses < _LEAST) | (moments[:, 0] < _LEAST))
     sums = moments[:, 0] + moments[:, 1]
@@ -59,7 +69,7 @@ def _bodies(world: World) -> Iterator[Finding]:
     numbers = np.concatenate(
         [world.positions, world.linear_velocities, world.angular_velocities], axis=1
     )
-    huge = np.any(np.abs(numbers) > _MOST, axis=1) | (world.masses > _MOST**2)
+    huge |= np.any(np.abs(numbers) > _MOST, axis=1)
     for row in np.flatnonzero(massless).tolist():
         body = world.bodies[row]
         yield MASS.at(message=f"{body!r} can move, but has the mass {body.mass:g} and the "
