@@ -201,6 +201,29 @@ def test_a_derived_type_is_named_with_the_prefix_of_the_original() -> None:
     )
 
 
+HIDDEN = (
+    '<c:extra><c:technique profile="x"><plain xmlns="urn:f"><c:inner c:k="1"/></plain>'
+    '<f:a xmlns:f="urn:f" xmlns:own="urn:g"><own:b/><g:c xmlns:g="urn:own"/></f:a>'
+    "</c:technique></c:extra>"
+)
+
+
+@pytest.mark.parametrize("default", [False, True])
+def test_foreign_namespaces_survive_being_inserted_and_moved(default: bool) -> None:
+    source = SOURCE
+    if default:
+        source = source.replace("<c:", "<").replace("</c:", "</").replace("xmlns:c", "xmlns")
+    tree = parsed(source)
+    root = edited(tree)
+    whole = SOURCE.replace("</c:library_physics_models>", f"</c:library_physics_models>{HIDDEN}")
+    root.extra = edited(parsed(whole)).extra
+    bodies(root)[1].extra = copy.deepcopy(root.extra)
+    result = check(tree, root)
+    again = edited(result)
+    again.choice[0].physics_model[0].rigid_body.reverse()
+    check(result, again)
+
+
 @pytest.mark.parametrize("count", [3, 400])
 def test_one_of_many_bodies_changes(count: int) -> None:
     body = SOURCE[SOURCE.index('<c:rigid_body sid="second"') : SOURCE.index("      <!-- after the")]

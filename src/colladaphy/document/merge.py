@@ -14,6 +14,16 @@ from typing import TYPE_CHECKING
 from lxml import etree
 
 from colladaphy.document.alignment import align, longest_increasing
+from colladaphy.document.placing import (
+    MATH,
+    Holder,
+    indent,
+    indentation,
+    insert,
+    is_wildcard,
+    remove,
+    separator,
+)
 from colladaphy_schema.codec import decode_document, encode, paused_collector
 from colladaphy_schema.registry import ELEMENTS, PREFIXES
 
@@ -23,7 +33,6 @@ if TYPE_CHECKING:
 __all__ = ["merge"]
 
 _XSI = "http://www.w3.org/2001/XMLSchema-instance"
-_MATH = "{http://www.w3.org/1998/Math/MathML}math"
 _SCOPE: dict[str | None, str] = {
     **{prefix.rstrip(":") or None: uri for uri, prefix in PREFIXES.items()},
     "xsi": _XSI,
@@ -48,8 +57,9 @@ def merge(original: etree._ElementTree, edited: Collada) -> etree._ElementTree:
         result = deepcopy(original)
         parser = etree.XMLParser(huge_tree=True, resolve_entities=False, no_network=True)
         old, new = etree.fromstring(before, parser), etree.fromstring(after, parser)
-        _patch(result.getroot(), old, new, generic=False)
-    return result
+        holder = Holder()
+        _patch(result.getroot(), old, new, holder, generic=False)
+        return holder.release(result)
 
 
 def _text(collada: Collada) -> str:
@@ -59,7 +69,12 @@ def _text(collada: Collada) -> str:
 
 
 def _patch(
-    target: etree._Element, old: etree._Element, new: etree._Element, *, generic: bool
+    target: etree._Element,
+    old: etree._Element,
+    new: etree._Element,
+    holder: Holder,
+    *,
+    generic: bool,
 ) -> None:
     """Make the changes from `old` to `new` in `target`, all versions of one element.
 
@@ -69,7 +84,7 @@ def _patch(
         target.text = new.text
         return
     _patch_attributes(target, old, new)
-    mixed = generic or new.tag == _MATH
+    mixed = generic or new.tag == MATH
     if old.text != new.text:
         target.text = new.text
         for child in target if len(new) == 0 and len(old) == 0 else ():
@@ -80,24 +95,26 @@ def _patch(
     kept = {index for index, _ in origins if index is not None}
     for index, node in enumerate(nodes):
         if index not in kept:
-            _remove(target, node, mixed)
+            remove(target, node, mixed)
     stable = longest_increasing([index for index, _ in origins if index is not None])
     previous: etree._Element | None = None
-    separator = _separator(target, mixed)
-    unit = _unit(target, separator)
+    line = separator(target, mixed)
+    unit = indentation(target, line)
     for (origin, changed), child in zip(origins, after, strict=True):
-        inner = mixed or (_is_wildcard(target) and child.tag not in ELEMENTS)
+        inner = mixed or (is_wildcard(target) and child.tag not in ELEMENTS)
         if origin is None:
-            node = _insert(target, previous, deepcopy(child), separator)
+            node = holder.hold(deepcopy(child), generic=inner)
+            insert(target, previous, node, line)
             if not inner:
-                _indent(node, separator, unit)
+                indent(node, line, unit)
         else:
             node = nodes[origin]
-            if origin not in stable:
-                _remove(target, node, mixed)
-                _insert(target, previous, node, separator)
             if changed:
-                _patch(node, before[origin], child, generic=inner)
+                _patch(node, before[origin], child, holder, generic=inner)
+            if origin not in stable:
+                remove(target, node, mixed)
+                node = holder.hold(node, generic=inner)
+                insert(target, previous, node, line)
         if mixed or child.tail != (None if origin is None else before[origin].tail):
             node.tail = child.tail
         previous = node
@@ -136,76 +153,3 @@ def _requalified(name: str, target: etree._Element) -> str:
     uri = _SCOPE[prefix or None]
     bound = next(bound for bound, space in target.nsmap.items() if space == uri)
     return f"{bound}:{local}" if bound else local
-
-
-def _is_wildcard(element: etree._Element) -> bool:
-    """Whether the element is a technique of any content."""
-    return etree.QName(element).localname == "technique" and "profile" in element.attrib
-
-
-# --- white space ---------------------------------------------------------------------------
-
-
-def _separator(parent: etree._Element, mixed: bool) -> str | None:
-    """The line break and indentation before a child; None where children are not indented."""
-    text = parent.text
-    if mixed or not len(parent) or text is None or "\n" not in text or not text.isspace():
-        return None
-    return text[text.rindex("\n") :]
-
-
-def _unit(parent: etree._Element, separator: str | None) -> str:
-    """By how much the children of an element are indented further than the element."""
-    if separator is None:
-        return ""
-    closing = parent[-1].tail or ""
-    return separator.removeprefix(closing) if separator.startswith(closing or " ") else ""
-
-
-def _remove(parent: etree._Element, node: etree._Element, mixed: bool) -> None:
-    """Take a node out; the last one's tail, which indents the end tag, passes to the one before."""
-    before = node.getprevious()
-    if not mixed and node.getnext() is None and _is_blank(node.tail):
-        if before is None:
-            parent.text = node.tail
-        elif _is_blank(before.tail):
-            before.tail = node.tail
-    node.tail = None
-    parent.remove(node)
-
-
-def _is_blank(text: str | None) -> bool:
-    return not text or text.isspace()
-
-
-def _insert(
-    parent: etree._Element,
-    previous: etree._Element | None,
-    node: etree._Element,
-    separator: str | None,
-) -> etree._Element:
-    """Put a node behind another one, or first."""
-    if previous is None:
-        node.tail = separator if len(parent) else None
-        parent.insert(0, node)
-        return node
-    tail, previous.tail = previous.tail, None
-    node.tail = None
-    previous.addnext(node)
-    previous.tail = separator if _is_blank(tail) else tail
-    node.tail = tail if _is_blank(tail) else None
-    return node
-
-
-def _indent(node: etree._Element, separator: str | None, unit: str) -> None:
-    """Indent a new element like its siblings; what no schema describes stays as it is."""
-    if separator is None or not unit or not len(node) or node.tag == _MATH:
-        return
-    inner = separator + unit
-    node.text = inner if _is_blank(node.text) else node.text
-    wild = _is_wildcard(node)
-    for child in node:
-        if _is_blank(child.tail):
-            child.tail = inner if child.getnext() is not None else separator
-        if isinstance(child.tag, str) and (not wild or child.tag in ELEMENTS):
-            _indent(child, inner, unit)
