@@ -249,3 +249,37 @@ def test_what_was_written_for_bullet_comes_back() -> None:
     assert float(words(root, "angular_velocity")[1]) == np.degrees(3.5)
     assert "written_for" not in etree.tostring(root, encoding="unicode")
     assert "written for Bullet" in findings[0].message
+
+
+@pytest.mark.parametrize("number", ["NaN", "INF", "-INF", "1e308", "-1e308", "1e-320", "0", "x"])
+@pytest.mark.parametrize("tag", ["translate", "rotate", "inertia", "float_array", "mass"])
+@pytest.mark.parametrize("convention", ["auto", "openrave", "blender", "bullet", "colladamaya"])
+def test_no_number_is_too_odd(number: str, tag: str, convention: str) -> None:
+    tree = robot(IN_MODEL, IN_MODEL)
+    for element in tree.getroot().iter(C + tag):
+        element.text = " ".join([number] * len((element.text or "").split()))
+    mended(tree, convention=convention)
+
+
+@pytest.mark.parametrize("number", ["NaN", "INF", "-INF", "1e308", "-1e308", "1e-320", "0", "x"])
+def test_no_size_is_too_odd(number: str) -> None:
+    solids = "".join(
+        f"<shape>{solid}</shape>"
+        for solid in (
+            f"<tapered_cylinder><height>{number}</height><radius1>{number} 1</radius1>"
+            f"<radius2>1 {number}</radius2></tapered_cylinder>",
+            f"<tapered_capsule><height>{number}</height><radius1>{number} 1</radius1>"
+            f"<radius2>1 {number}</radius2></tapered_capsule>",
+            f"<sphere><radius>1 {number} 2</radius></sphere>",
+            f"<capsule><height>1</height><radius>{number} 1</radius></capsule>",
+            f"<ellipsoid><size>1 {number} 2</size></ellipsoid>",
+            f"<plane><equation>0 {number} 1 {number}</equation></plane>",
+        )
+    )
+    body = (
+        f"<inertia>1 0 {number} 0 1 0 {number} 0 1</inertia><mass_frame><matrix>"
+        + f"{number} 1 " * 8
+        + f"</matrix></mass_frame>{solids}"
+    )
+    for convention in ("auto", "bullet", "blender"):
+        mended(physics(body, version="1.4.1"), convention=convention)

@@ -10,7 +10,7 @@ from colladaphy.conform.context import CONFORM, NS, OWN_MAP, Context, append, in
 from colladaphy.conform.frames import axis_angle, nearest_rotation, of_element, transform_of
 from colladaphy.conform.lexical import name_from
 from colladaphy.conform.shapes import GEOMETRIES, TAPERED
-from colladaphy.conform.solids import numbers_of
+from colladaphy.conform.solids import are_usable, numbers_of
 
 __all__ = [
     "assumed_shape",
@@ -129,7 +129,11 @@ def split_matrices(context: Context) -> None:
             "attachment_end",
         ):  # fmt: skip
             continue
-        if len(numbers_of(matrix)) != 16 or not context.wants(rules.MATRIX):
+        if (
+            len(values := numbers_of(matrix)) != 16
+            or not are_usable(values)
+            or not context.wants(rules.MATRIX)
+        ):
             continue
         rigid, exact = nearest_rotation(of_element(matrix))
         made = place_elements(context, rigid)
@@ -155,7 +159,7 @@ def diagonalise_inertia(context: Context) -> None:
         if len(values) != 9 or not context.wants(rules.INERTIA):
             continue
         tensor = np.asarray(values).reshape(3, 3)
-        if not np.all(np.isfinite(tensor)):
+        if not are_usable(values):
             continue
         before = " ".join((inertia.text or "").split())
         if np.count_nonzero(tensor - np.diag(np.diag(tensor))) == 0:
@@ -273,6 +277,8 @@ def _visuals(
         current, place = stack.pop()
         for instance in current.iterchildren(NS + "instance_geometry"):
             geometry = context.by_url(instance.get("url"))
+            if not are_usable(place.ravel().tolist()):
+                continue
             rigid, exact = nearest_rotation(place)
             if geometry is not None and exact and _is_solid(geometry):
                 found.append((instance.get("url", ""), rigid))

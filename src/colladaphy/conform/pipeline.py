@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 
+import numpy as np
 from lxml import etree
 
 from colladaphy.conform import bodies, references, rules, shapes, structure, upgrade
@@ -86,6 +87,13 @@ def conform(
     context = Context(twin.getroot(), file=file, only=only, origin=origin)
     context.far_lines = far_lines
     note_version(context, tree.getroot(), version)
+    with np.errstate(all="ignore"):  # odd numbers are the file's, and end where they are checked
+        _run(context, twin, version, convention)
+    context.findings.sort(key=lambda finding: finding.line or 0)
+    return twin, context.findings
+
+
+def _run(context: Context, twin: etree._ElementTree, version: str, convention: str) -> None:
     steps = [*(_UPGRADE if version.startswith("1.4") else ()), *_NAMES]
     for step in steps:
         step(context)
@@ -99,5 +107,3 @@ def conform(
     translate(context, convention)
     for step in () if form_is_right else _REST:
         step(context)
-    context.findings.sort(key=lambda finding: finding.line or 0)
-    return twin, context.findings

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from lxml import etree
 
 from colladaphy.conform import rules
@@ -12,6 +10,7 @@ from colladaphy.conform.solids import (
     SEGMENTS,
     Ring,
     add_solid,
+    are_usable,
     ellipsoid,
     numbers_of,
     tapered_capsule,
@@ -64,7 +63,7 @@ def convert_tapered(context: Context) -> None:
             if not upper or not lower or len(height) != 1 or local(_parent(solid)) != "shape":
                 continue
             values = (*height, *upper, *lower)
-            if not all(math.isfinite(value) and value >= 0 for value in values):
+            if not are_usable(values) or min(values) < 0:
                 continue
             message = (
                 f"<{name}> of height {height[0]:g} and radii {upper[0]:g} above, {lower[0]:g} below"
@@ -120,7 +119,7 @@ def _mend_sphere(context: Context, sphere: etree._Element) -> None:
         radius.text = before.split()[0]
         message = f"sphere radius was {before}, is now {radius.text}"
         context.note(rules.SPHERE_RADII, radius, message)
-    elif len(values) == 3 and all(math.isfinite(v) and v > 0 for v in values):
+    elif len(values) == 3 and are_usable(values) and min(values) > 0:
         shape = _parent(sphere)
         name = _replace(context, sphere, ellipsoid(values), "ellipsoid")
         message = f"sphere with the radii {before} is an ellipsoid: now the convex mesh #{name}"
@@ -135,7 +134,12 @@ def lift_inline_meshes(context: Context) -> None:
                 _lift(context, shape, mesh)
         for solid in list(shape.iterchildren(NS + "ellipsoid")):
             size = numbers_of(solid.find(NS + "size"))
-            if len(size) == 3 and min(size) > 0 and context.wants(rules.INLINE_MESH):
+            if (
+                len(size) == 3
+                and are_usable(size)
+                and min(size) > 0
+                and context.wants(rules.INLINE_MESH)
+            ):
                 name = _replace(context, solid, ellipsoid([s / 2 for s in size]), "ellipsoid")
                 message = f"an <ellipsoid> is no shape of 1.5: now the convex mesh #{name}"
                 context.note(rules.INLINE_MESH, shape, message)

@@ -13,9 +13,18 @@ from lxml import etree
 
 from colladaphy.conform.context import Context, append
 
-__all__ = ["SEGMENTS", "Ring", "add_solid", "ellipsoid", "tapered_capsule", "tapered_cylinder"]
+__all__ = [
+    "SEGMENTS",
+    "Ring",
+    "add_solid",
+    "are_usable",
+    "ellipsoid",
+    "tapered_capsule",
+    "tapered_cylinder",
+]
 
 SEGMENTS = 32
+_LARGEST = 1e100
 Ring = tuple[float, float, float]
 """Height y and the radii along x and z of one horizontal outline."""
 
@@ -109,6 +118,11 @@ def add_solid(context: Context, wish: str, rings: Sequence[Ring]) -> str:
     append(context.library("geometries"), geometry)
     context.ids[name] = geometry
     return name
+
+
+def are_usable(values: Sequence[float]) -> bool:
+    """Whether one can compute with these numbers: finite, and their squares too."""
+    return all(abs(value) < _LARGEST for value in values)  # false for NaN
 
 
 def numbers_of(element: etree._Element | None) -> list[float]:

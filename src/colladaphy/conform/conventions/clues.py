@@ -9,7 +9,7 @@ from lxml import etree
 
 from colladaphy.conform.context import CONFORM, NS, OWN_MAP, Context, append, local, remove
 from colladaphy.conform.frames import Matrix, transform_of
-from colladaphy.conform.solids import numbers_of
+from colladaphy.conform.solids import are_usable, numbers_of
 
 __all__ = [
     "Clues",
@@ -103,9 +103,10 @@ def add_note(context: Context, tag: str, /, **values: str) -> None:
 def place_of(element: etree._Element) -> Matrix | None:
     """The transforms among an element's children, composed; None where one cannot be read."""
     try:
-        return transform_of(element)
+        place = transform_of(element)
     except ValueError:
         return None
+    return place if are_usable(place.ravel().tolist()) else None
 
 
 def write_numbers(element: etree._Element, values: list[float]) -> str:
@@ -136,7 +137,7 @@ def extents(context: Context, geometry: etree._Element | None) -> Matrix | None:
                 holder = context.by_url(source.get("source"))
                 array = None if holder is None else holder.find(NS + "float_array")
                 numbers = numbers_of(array)
-                if len(numbers) >= 3 and len(numbers) % 3 == 0:
+                if len(numbers) >= 3 and len(numbers) % 3 == 0 and are_usable(numbers):
                     points = np.asarray(numbers).reshape(-1, 3)
                     return np.stack([points.min(axis=0), points.max(axis=0)])
     return None

@@ -17,6 +17,7 @@ from colladaphy.conform.bodies import body_targets, place_elements
 from colladaphy.conform.context import NS, Context, insert, local
 from colladaphy.conform.conventions.clues import Clues, extents, is_assumed, place_of
 from colladaphy.conform.frames import TRANSFORMS, Matrix, inverse
+from colladaphy.conform.solids import are_usable
 
 __all__ = ["apply", "recognise_openhrp3", "recognise_openrave", "recognise_ros"]
 
@@ -135,6 +136,8 @@ def _place_in(node: etree._Element, known: dict[etree._Element, Matrix | None]) 
     for step in reversed(chain):
         own = place_of(step)
         place = known[step] = None if own is None or place is None else place @ own
+        if place is not None and not are_usable(place.ravel().tolist()):
+            place = known[step] = None
     return place
 
 
