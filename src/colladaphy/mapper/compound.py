@@ -140,7 +140,9 @@ def single_part(
     kept = None if profile is None or reader.prefer == "common" else profile
     shape_part = None if kept is None else kept.part
     if shape_part is not None and shape_part.thesis is not None:
+        pose = shape.pose
         shape = _thesis_shape(mapping, shape_part, shape)
+        shape.pose = pose
         shape_part = None
     part = Part(shape.kind, shape.dimensions, IDENTITY, -1, material, shape.hollow)
     if shape_part is not None:
@@ -181,8 +183,6 @@ def _thesis_shape(mapping: Mapping, part: ProfilePart, shape: Shape) -> Shape:
         same = mapping.precision.same_each(shape.dimensions, other.dimensions)
     if not mapping.decide("shape", shape.dimensions, other.dimensions, same):
         return shape
-    if other.pose == IDENTITY:
-        other.pose = shape.pose
     return other
 
 
@@ -345,11 +345,14 @@ def _refined(
     part, shape = next(leaves)
     if kept.thesis is not None:
         fresh = _thesis_shape(mapping, kept, shape)
-        if fresh is not shape:
-            own = Pose() if fresh.pose is shape.pose else fresh.pose
-            part.kind, part.dimensions = fresh.kind, fresh.dimensions
-            part.pose = own
-            part.mass = fresh.mass
+        part.kind, part.dimensions, part.mass = fresh.kind, fresh.dimensions, fresh.mass
+        part.pose = outer.inverse().then(shape.pose)
+        whole = outer.then(fresh.pose)
+        same = mapping.precision.same_as_whole(
+            whole.translation, shape.pose.translation, mapping.extent
+        ) and mapping.precision.same_turn(whole.rotation, shape.pose.rotation)
+        if fresh is not shape and same:
+            part.pose = fresh.pose
     else:
         where = outer.then(kept.pose)
         part.kind, part.dimensions = mapping.dimensions(shape, kept, where)

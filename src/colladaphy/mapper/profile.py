@@ -236,6 +236,8 @@ def _thesis_body(technique: etree._Element) -> ProfileBody | None:
     body.uid = _thesis_uid(technique)
     if parts:
         body.part = _thesis_part(parts[0])
+        if body.uid is None:
+            body.uid = body.part.uid
     return body
 
 
