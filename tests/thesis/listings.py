@@ -10,7 +10,8 @@ _TIMES = "<created>2011-01-01T00:00:00Z</created><modified>2011-01-01T00:00:00Z<
 
 
 def _document(content: str) -> bytes:
-    return f'<COLLADA xmlns="{COLLADA}" version="1.5.0"><asset>{_TIMES}</asset>{content}</COLLADA>'.encode()
+    start = f'<COLLADA xmlns="{COLLADA}" version="1.5.0"><asset>{_TIMES}</asset>'
+    return f"{start}{content}</COLLADA>".encode()
 
 
 _MUSTARD = """
