@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -40,11 +41,20 @@ print("done", flush=True)
 """
 
 
-def start(folder: Path, steps: int) -> subprocess.Popen[str]:
-    command = [sys.executable, "-c", RUNNER, str(folder), str(steps)]
-    return subprocess.Popen(
+@contextmanager
+def running(script: str, *arguments: object) -> Iterator[subprocess.Popen[str]]:
+    """A Python process that is killed, by SIGKILL, at the end of the block."""
+    command = [sys.executable, "-c", script, *(str(argument) for argument in arguments)]
+    process = subprocess.Popen(
         command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
+    assert process.stdout is not None and process.stderr is not None
+    with process.stdout, process.stderr:
+        try:
+            yield process
+        finally:
+            process.send_signal(signal.SIGKILL)
+            process.wait()
 
 
 def test_killed_at_random_moments(tmp_path: Path) -> None:
@@ -54,15 +64,12 @@ def test_killed_at_random_moments(tmp_path: Path) -> None:
     folder = tmp_path / "killed"
     reached = 0
     for _ in range(KILLS):
-        process = start(folder, 10**9)
-        assert process.stdout is not None and process.stderr is not None
-        with process.stdout, process.stderr:
+        with running(RUNNER, folder, 10**9) as process:
+            assert process.stdout is not None and process.stderr is not None
             ready = process.stdout.readline().split()
             assert ready[:1] == ["ready"], process.stderr.read()
             assert int(ready[1]) >= reached
             time.sleep(chance.random() * 0.8)
-            process.send_signal(signal.SIGKILL)
-            process.wait()
         checkpoints = Checkpoints(folder, keep=2)
         if checkpoints.paths():
             found = checkpoints.newest()
@@ -94,16 +101,11 @@ def test_killed_while_the_same_file_is_written_over(tmp_path: Path) -> None:
     file = tmp_path / "a.dae"
     chance = random.Random(7)
     for _ in range(max(3, KILLS // 4)):
-        process = subprocess.Popen(
-            [sys.executable, "-c", script, str(file)], cwd=ROOT, stdout=subprocess.PIPE, text=True
-        )
-        assert process.stdout is not None
-        with process.stdout:
+        with running(script, file) as process:
+            assert process.stdout is not None
             for _ in range(3):
                 process.stdout.readline()
             time.sleep(chance.random() * 0.05)
-            process.send_signal(signal.SIGKILL)
-            process.wait()
         assert read_checkpoint(file).step_count >= 3
 
 
