@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colladaphy.document.poses import IDENTITY, Pose, rotate_vector, unit_quaternion
+from colladaphy.document.poses import IDENTITY, Pose
 from colladaphy.mapper import rules
-from colladaphy.mapper.plans import Dimensions, Part
-from colladaphy.mapper.shapes import Shape, ShapeError, read_shape, unit_plane
-from colladaphy.mapper.tensors import Tensor, diagonal, turned
-from colladaphy.mapper.tessellation import extent
+from colladaphy.mapper.deciding import Mapping, thesis_shape
+from colladaphy.mapper.planes import plane_pose
+from colladaphy.mapper.plans import Part
+from colladaphy.mapper.shapes import Shape
 from colladaphy.world.kinds import Kind
 
 if TYPE_CHECKING:
@@ -21,109 +21,7 @@ if TYPE_CHECKING:
     from colladaphy.mapper.profile import ProfileBody, ProfilePart
     from colladaphy.mapper.staleness import Precision
 
-__all__ = ["Mapping", "compound_part", "single_part"]
-
-
-class Mapping:
-    """One body on its way: what its elements say, and how its values are decided."""
-
-    def __init__(
-        self,
-        reader: BodyReader,
-        instance: BodyInstance,
-        values: BodyValues,
-        profile: ProfileBody | None,
-        precision: Precision,
-    ) -> None:
-        self.reader = reader
-        self.instance = instance
-        self.values = values
-        self.profile = profile
-        self.precision = precision
-        self.edited = False
-        """Whether a shape was edited in the common profile after the profile was written."""
-        self.extent = 0.0
-        """The size of the body: what is small against it can be due to rounding."""
-
-    def decide(self, what: str, stated: object, kept: object, same: bool) -> bool:
-        """Whether the profile's value is taken; notes where it is an older one."""
-        prefer = self.reader.prefer
-        if prefer == "profile" or (prefer == "newer" and same):
-            return True
-        if prefer == "newer":
-            body = self.instance.body
-            self.reader.stale(what, body, self.instance.body_document, stated, kept)
-        return False
-
-    # --- values
-
-    def mass(self, stated: float | None, kept: float | None) -> float | None:
-        """The mass: the profile's, unless the common one is newer."""
-        if kept is None or stated is None:
-            return kept if stated is None else stated
-        same = self.precision.same(stated, kept)
-        return kept if self.decide("mass", stated, kept, same) else stated
-
-    def stated_inertia(self, pose: Pose) -> Tensor | None:
-        """What the common profile says, in the frame of a part at `pose` in the rigid_body."""
-        if self.values.inertia is None:
-            return None
-        frame = self.values.mass_frame
-        tensor = turned(diagonal(self.values.inertia), None if frame is None else frame.orientation)
-        return turned(tensor, pose.inverse().orientation)
-
-    def inertia(self, stated: Tensor | None, kept: Tensor | None) -> Tensor | None:
-        """The inertia: the profile's, unless the common one is newer."""
-        if kept is None or stated is None:
-            return stated if kept is None else kept
-        # COLLADA says the symmetric part, and of the largest numbers only that they are large.
-        symmetric = symmetric_part(kept)
-        same = not all(map(math.isfinite, stated)) or self.precision.same_as_whole(
-            stated, symmetric
-        )
-        return kept if self.decide("inertia", stated, kept, same) else stated
-
-    def dimensions(
-        self, shape: Shape, kept: ProfilePart, where: Pose | None = None
-    ) -> tuple[Kind, Dimensions]:
-        """Kind and dimensions: the profile's, unless the common ones are newer.
-
-        A plane in a union is where its pose `where` in the rigid_body puts it.
-        """
-        if kept.dimensions is None or kept.geometry is None:
-            return shape.kind, shape.dimensions
-        kind = Kind[kept.geometry.upper()]
-        x, y, z, length = kept.dimensions
-        exact = (x, y, z, length)
-        same = kind is shape.kind and (
-            self._same_plane(shape.dimensions, exact if where is None else plane_at(where))
-            if kind is Kind.PLANE
-            else self.precision.same_each(shape.dimensions, exact)
-        )
-        if shape.kind is Kind.MESH and self._is_tessellated(kind, exact, shape):
-            shape.pose = shape.placed
-            same = True
-        if self.decide("shape", shape.dimensions, exact, same):
-            return kind, exact
-        self.edited = True
-        return shape.kind, shape.dimensions
-
-    def _same_plane(self, stated: Dimensions, kept: Dimensions) -> bool:
-        stated = unit_plane(stated)
-        return self.precision.same_as_whole(stated[:3], kept[:3]) and self.precision.same(
-            stated[3], kept[3], self.extent
-        )
-
-    def _is_tessellated(self, kind: Kind, exact: Dimensions, shape: Shape) -> bool:
-        """Whether a mesh stands for the primitive of the profile, written for other readers."""
-        mesh = shape.mesh
-        if mesh is None or not mesh.convex:
-            return False
-        size = extent(kind, exact)
-        if size is None:
-            return False
-        reach = np.max(np.abs(mesh.vertices), axis=0)
-        return bool(np.all(np.abs(reach - size) <= 2e-6 * np.max(size)))
+__all__ = ["compound_part", "single_part"]
 
 
 def single_part(
@@ -141,7 +39,7 @@ def single_part(
     shape_part = None if kept is None else kept.part
     if shape_part is not None and shape_part.thesis is not None:
         pose = shape.pose
-        shape = _thesis_shape(mapping, shape_part, shape)
+        shape = thesis_shape(mapping, shape_part, shape)
         shape.pose = pose
         shape_part = None
     part = Part(shape.kind, shape.dimensions, IDENTITY, -1, material, shape.hollow)
@@ -155,35 +53,6 @@ def single_part(
         mapping.stated_inertia(shape.pose), None if kept is None else kept.inertia
     )
     return part, shape.pose
-
-
-def _thesis_shape(mapping: Mapping, part: ProfilePart, shape: Shape) -> Shape:
-    """The shape that the thesis's spelling of the profile gives, unless it is outdated."""
-    assert part.thesis is not None
-    reader = mapping.reader
-    try:
-        other = read_shape(part.thesis, mapping.instance.body_document, reader.geometries)
-    except (ShapeError, KeyError, ValueError):
-        reader.document.note(
-            rules.BAD_PROFILE, mapping.instance.body, file=mapping.instance.body_document.file
-        )
-        return shape
-    if other.mass is None:
-        other.mass, other.hollow = shape.mass, shape.hollow
-    same = other.kind is shape.kind
-    if same and other.kind is Kind.PLANE:
-        # The equation leaves open which side is solid, so the profile may turn it round.
-        same = any(
-            mapping.precision.same_as_whole(
-                tuple(sign * value for value in shape.dimensions), other.dimensions
-            )
-            for sign in (1.0, -1.0)
-        )
-    elif same:
-        same = mapping.precision.same_each(shape.dimensions, other.dimensions)
-    if not mapping.decide("shape", shape.dimensions, other.dimensions, same):
-        return shape
-    return other
 
 
 def compound_part(
@@ -241,29 +110,6 @@ def _flat_member(shape: Shape, material: int) -> Part:
     if shape.kind is Kind.PLANE:
         part.pose = plane_pose(shape.dimensions)
     return part
-
-
-def symmetric_part(tensor: Tensor) -> Tensor:
-    """(T + Tᵀ)/2."""
-    return tuple(
-        0.5 * tensor[3 * i + j] + 0.5 * tensor[3 * j + i] for i in range(3) for j in range(3)
-    )
-
-
-def plane_at(pose: Pose) -> Dimensions:
-    """Normal and displacement of a plane that stands at a pose."""
-    a, b, c = rotate_vector(unit_quaternion(pose.rotation), (0.0, 0.0, 1.0))
-    x, y, z = pose.translation
-    return a, b, c, a * x + b * y + c * z
-
-
-def plane_pose(plane: Dimensions) -> Pose:
-    """Where a plane stands of which nothing but its equation is known."""
-    from colladaphy.world import rotations
-
-    a, b, c, displacement = plane
-    w, x, y, z = rotations.between((0.0, 0.0, 1.0), (a, b, c)).tolist()
-    return Pose((a * displacement, b * displacement, c * displacement), (w, x, y, z))
 
 
 def center_of(members: Sequence[Part]) -> tuple[float, float, float] | None:
@@ -344,7 +190,7 @@ def _refined(
         return inner
     part, shape = next(leaves)
     if kept.thesis is not None:
-        fresh = _thesis_shape(mapping, kept, shape)
+        fresh = thesis_shape(mapping, kept, shape)
         part.kind, part.dimensions, part.mass = fresh.kind, fresh.dimensions, fresh.mass
         part.pose = outer.inverse().then(shape.pose)
         whole = outer.then(fresh.pose)

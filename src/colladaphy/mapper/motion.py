@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from colladaphy.document.names import c, local_name
 from colladaphy.document.poses import IDENTITY, Pose, Vector, rotate_vector, unit_quaternion
-from colladaphy.mapper.compound import plane_pose
 from colladaphy.mapper.numbers import DEGREE
+from colladaphy.mapper.planes import plane_pose
 from colladaphy.mapper.profile import pe_child, quaternion, vector
 from colladaphy.mapper.shapes import move_plane
 from colladaphy.world.kinds import Kind

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from colladaphy.document.poses import Pose, Quaternion, matrix_of
 
-__all__ = ["Tensor", "diagonal", "turned"]
+__all__ = ["Tensor", "diagonal", "symmetric_part", "turned"]
 
 Tensor = tuple[float, ...]
 
@@ -29,3 +29,10 @@ def turned(tensor: Tensor, orientation: Quaternion | None) -> Tensor:
     made = [[sum(half[i][k] * rows[j][k] for k in columns) for j in columns] for i in columns]
     # Symmetric to the last bit, as an inertia is.
     return tuple(made[i][j] if i <= j else made[j][i] for i in columns for j in columns)
+
+
+def symmetric_part(tensor: Tensor) -> Tensor:
+    """(T + Tᵀ)/2."""
+    return tuple(
+        0.5 * tensor[3 * i + j] + 0.5 * tensor[3 * j + i] for i in range(3) for j in range(3)
+    )
