@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable
-from dataclasses import astuple
+from dataclasses import fields
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+
+from colladaphy.world import Material, PairOverride
 
 if TYPE_CHECKING:
     from colladaphy.world import World
@@ -16,6 +19,8 @@ __all__ = ["digest"]
 
 _MOTION = ("linear_velocities", "angular_velocities", "forces", "torques", "sleeping")
 _POSE = ("positions", "orientations")
+_MATERIAL = attrgetter(*(field.name for field in fields(Material)))
+_PAIR = attrgetter(*(field.name for field in fields(PairOverride)))
 
 
 def digest(world: World, *, motion: bool = True) -> str:
@@ -91,6 +96,6 @@ def _mesh(world: World, id: int) -> str | None:
 def _materials(world: World) -> Iterable[tuple[str, Any]]:
     """The materials that are used, and their pairs: a file keeps no others (thesis 5.4)."""
     used = np.union1d(world.material_ids, world.member_columns.material_ids).tolist()
-    yield "materials", [astuple(world.materials[id]) for id in used if id >= 0]
+    yield "materials", [_MATERIAL(world.materials[id]) for id in used if id >= 0]
     pairs = [pair for pair in world.pair_overrides if pair.first in used and pair.second in used]
-    yield "pairs", [astuple(pair) for pair in pairs]
+    yield "pairs", [_PAIR(pair) for pair in pairs]
