@@ -204,6 +204,7 @@ def test_a_derived_type_is_named_with_the_prefix_of_the_original() -> None:
 HIDDEN = (
     '<c:extra><c:technique profile="x"><plain xmlns="urn:f"><c:inner c:k="1"/></plain>'
     '<f:a xmlns:f="urn:f" xmlns:own="urn:g"><own:b/><g:c xmlns:g="urn:own"/></f:a>'
+    '<plain xmlns:n="urn:f"><plain xmlns="urn:f" n:c=""/></plain>'
     "</c:technique></c:extra>"
 )
 

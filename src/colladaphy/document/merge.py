@@ -103,7 +103,8 @@ def _patch(
     for (origin, changed), child in zip(origins, after, strict=True):
         inner = mixed or (is_wildcard(target) and child.tag not in ELEMENTS)
         if origin is None:
-            node = holder.hold(deepcopy(child), generic=inner)
+            node = holder.hold(child, generic=inner)
+            node = deepcopy(node) if node is child else node
             insert(target, previous, node, line)
             if not inner:
                 indent(node, line, unit)
@@ -112,9 +113,10 @@ def _patch(
             if changed:
                 _patch(node, before[origin], child, holder, generic=inner)
             if origin not in stable:
+                moved = holder.hold(node, generic=inner)
                 remove(target, node, mixed)
-                node = holder.hold(node, generic=inner)
-                insert(target, previous, node, line)
+                insert(target, previous, moved, line)
+                node = moved
         if mixed or child.tail != (None if origin is None else before[origin].tail):
             node.tail = child.tail
         previous = node

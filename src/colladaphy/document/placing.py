@@ -40,7 +40,10 @@ class Holder:
         self._texts: list[str] = []
 
     def hold(self, node: etree._Element, *, generic: bool) -> etree._Element:
-        """The node, to be put where it belongs; `generic` says that no schema describes it."""
+        """What to put elsewhere for a node, which is still in its tree: the node or a stand-in.
+
+        `generic` says that no schema describes the node.
+        """
         for foreign in list(_foreign(node, generic)):
             if not _is_fragile(foreign):
                 continue
