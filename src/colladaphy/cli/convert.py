@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
@@ -11,6 +11,7 @@ from colladaphy.cli.files import convention_option, limits_option, source_of, ta
 from colladaphy.cli.reporting import write_report
 
 if TYPE_CHECKING:
+    from colladaphy.conform.exporting import Target
     from colladaphy.source.limits import Limits
 
 __all__ = ["command"]
@@ -34,7 +35,7 @@ def command(
     source: str,
     target: str,
     report_file: str | None,
-    reader: str,
+    reader: Target | Literal["collada"],
     convention: str,
     limits: Limits | None,
 ) -> None:
@@ -47,18 +48,13 @@ def command(
 
     mended = mend(source_of(source), convention=convention, limits=limits)
     report = mended.report
-    tree = mended.tree
-    if reader == "bullet":
-        from colladaphy.conform.bullet import for_bullet
+    data = None
+    if reader != "collada":
+        from colladaphy.conform.exporting import export
 
-        tree, changes = for_bullet(tree)
+        data, changes = export(mended.tree, reader)
         report.extend(changes)
-    elif reader == "collada-1.4":
-        from colladaphy.conform.downgrade import to_collada_1_4
-
-        tree, changes = to_collada_1_4(tree)
-        report.extend(changes)
-    mended.save(target_of(target), tree)
+    mended.save(target_of(target), data)
     if report_file is not None:
         write_report(report, report_file)
     elif report.findings:

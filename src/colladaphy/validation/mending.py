@@ -24,12 +24,13 @@ class Mended:
     tree: etree._ElementTree
     report: Report
 
-    def save(self, target: Target, tree: etree._ElementTree | None = None) -> None:
-        """Write the document atomically, or `tree` in its stead.
+    def save(self, target: Target, data: bytes | None = None) -> None:
+        """Write the document atomically, or `data` in its stead.
 
         An archive's other files are kept where the target's name ends in .zae.
         """
-        data = serialise(self.tree if tree is None else tree)
+        if data is None:
+            data = serialise(self.tree)
         if isinstance(target, str | PathLike) and fspath(target).lower().endswith(".zae"):
             data = self._packed(data)
         save(data, target)
