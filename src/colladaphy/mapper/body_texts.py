@@ -98,7 +98,9 @@ class ShapeTexts:
             with np.errstate(all="ignore"):
                 densities = masses / volumes
                 exact = same_bits(densities * volumes, masses)
-            usable = np.isfinite(densities) & (volumes > 0)
+                # Not where the volume is too small or too large to say the mass by it.
+                usable = np.abs(densities * volumes - masses) <= 1e-12 * masses
+            usable &= np.isfinite(densities) & (volumes > 0)
             for row, density in zip(
                 np.flatnonzero(usable).tolist(), column_texts(densities[usable]), strict=True
             ):
@@ -109,9 +111,10 @@ class ShapeTexts:
     def _volumes(self) -> Array:
         kinds, dimensions = self._columns["kinds"], self._columns["dimensions"]
         volumes = np.zeros(len(kinds))
-        for kind in np.unique(kinds).tolist():
-            rows = kinds == kind
-            volumes[rows] = solid_volume(Kind(kind), dimensions[rows])
+        with np.errstate(all="ignore"):
+            for kind in np.unique(kinds).tolist():
+                rows = kinds == kind
+                volumes[rows] = solid_volume(Kind(kind), dimensions[rows])
         for row in np.flatnonzero(kinds == Kind.MESH).tolist():
             volumes[row] = self._world.meshes[int(self._columns["mesh_ids"][row])].volume
         return volumes
@@ -287,6 +290,9 @@ def _motions(columns: dict[str, Array], full: bool, exact: Array, moved: Array) 
     texts = [""] * count
     orientations = columns["orientations"]
     turned = ~np.all(same_bits(orientations, np.broadcast_to(_NO_TURN, (count, 4))), axis=1)
+    # A plane that says nothing is turned as its normal is.
+    tilts = columns["dimensions"][:, :2]
+    turned |= ~moved & ~np.all(same_bits(tilts, np.zeros(tilts.shape)), axis=1)
     wanted = {
         "position": (columns["positions"], np.full(count, full) & moved),
         "orientation": (orientations, turned | full),
