@@ -30,6 +30,8 @@ __all__ = ["mass_and_inertia", "prepare"]
 
 Array = NDArray[Any]
 
+_PLANE, _MESH = int(Kind.PLANE), int(Kind.MESH)  # numpy is slow to compare with an enumeration
+
 _DEFAULTS: Mapping[str, float] = {"mesh_ids": -1}
 _FINITE = ("positions", "orientations", "linear_velocities", "angular_velocities", "forces",
            "torques")  # fmt: skip
@@ -63,17 +65,15 @@ def prepare(
     _check_dimensions(values)
     _check_references(values, materials, meshes)
     _place(values, columns)
-    values["fixed"] = values["fixed"] | (values["kinds"] == Kind.PLANE)
+    values["fixed"] = values["fixed"] | (values["kinds"] == _PLANE)
     _weigh(values, columns, materials, meshes)
     return values
 
 
 def _check_dimensions(values: dict[str, Array]) -> None:
     kinds, dimensions = values["kinds"], values["dimensions"]
-    for kind, needed in NEEDED.items():
-        rows = kinds == kind
-        if not rows.any():
-            continue
+    for kind in _sized_kinds(kinds):
+        needed, rows = NEEDED[kind], kinds == int(kind)
         sizes = dimensions[rows][:, needed]
         good = (sizes > 0) & (sizes < np.inf)
         if not good.all():
@@ -87,7 +87,7 @@ def _check_dimensions(values: dict[str, Array]) -> None:
             raise refuse(
                 DIMENSION, f"Dimensions that a {kind.name.lower()} does not have are not zero."
             )
-    planes = dimensions[kinds == Kind.PLANE]
+    planes = dimensions[kinds == _PLANE]
     if not np.all(np.isfinite(planes)) or not np.all(np.any(planes[:, :3] != 0, axis=1)):
         raise refuse(DIMENSION, "The normal of a plane is zero or not finite.")
 
@@ -98,7 +98,7 @@ def _check_references(
     for id in _distinct(values["material_ids"])[0].tolist():
         if id not in materials:
             raise refuse(MATERIAL_UNKNOWN, f"There is no material with the id {id}.")
-    is_mesh = values["kinds"] == Kind.MESH
+    is_mesh = values["kinds"] == _MESH
     for id in _distinct(values["mesh_ids"][is_mesh])[0].tolist():
         if id not in meshes:
             raise refuse(MESH, f"There is no mesh with the id {id}.")
@@ -108,7 +108,7 @@ def _check_references(
 
 def _place(values: dict[str, Array], columns: BodyColumns) -> None:
     """Poses that were not given."""
-    planes = np.flatnonzero(values["kinds"] == Kind.PLANE)
+    planes = np.flatnonzero(values["kinds"] == _PLANE)
     normals = values["dimensions"][planes, :3]
     if columns.positions is None and len(planes):
         values["positions"][planes] = normals * values["dimensions"][planes, 3:]
@@ -161,10 +161,8 @@ def mass_and_inertia(
     densities = _densities(values["material_ids"], materials) if masses is None else None
     diagonal = np.arange(3)
     with np.errstate(all="ignore"):
-        for kind in NEEDED:
-            rows = np.flatnonzero(kinds == kind)
-            if not len(rows):
-                continue
+        for kind in _sized_kinds(kinds):
+            rows = np.flatnonzero(kinds == int(kind))
             if densities is not None:
                 out_masses[rows] = solid_volume(kind, dimensions[rows]) * densities[rows]
             inertias[rows[:, None], diagonal, diagonal] = solid_inertia(
@@ -173,7 +171,7 @@ def mass_and_inertia(
             for row in rows[values["hollow"][rows]].tolist():
                 mean = hollow_moments(kind, tuple(dimensions[row].tolist()))
                 inertias[row, diagonal, diagonal] = out_masses[row] * (mean.sum() - mean)
-        for row in np.flatnonzero(kinds == Kind.MESH).tolist():
+        for row in np.flatnonzero(kinds == _MESH).tolist():
             mesh = meshes[int(values["mesh_ids"][row])]
             if densities is not None:
                 out_masses[row] = mesh.volume * densities[row]
@@ -181,6 +179,11 @@ def mass_and_inertia(
             hollow = bool(values["hollow"][row])
             inertias[row] = mesh.hollow_inertia(mass) if hollow else mesh.inertia(mass)
     return out_masses, inertias
+
+
+def _sized_kinds(kinds: Array) -> list[Kind]:
+    """The kinds with dimensions that there are."""
+    return [kind for kind in map(Kind, np.flatnonzero(np.bincount(kinds))) if kind in NEEDED]
 
 
 def _densities(ids: Array, materials: Materials) -> Array:
