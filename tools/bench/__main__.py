@@ -28,11 +28,10 @@ def main(arguments: list[str] | None = None) -> int:
     with tempfile.TemporaryDirectory() as folder:
         print(f"{'':18}{'bodies':>8}{'µs a body':>12}{'× parse':>9}{'peak MB':>9}")
         for size in options.bodies:
-            data = document(size)
             file = Path(folder) / f"{size}.dae"
-            file.write_bytes(data)
+            file.write_bytes(document(size))
             steps = [s for s in STEPS if s not in STOCK or size <= options.stock_up_to]
-            for step, timing in interleaved(data, steps, options.repeat).items():
+            for step, timing in interleaved(file, steps, options.repeat).items():
                 timings[step][size] = timing
                 memory = "" if options.no_memory else f"{peak_memory(step, file):9.0f}"
                 print(
@@ -48,7 +47,7 @@ def main(arguments: list[str] | None = None) -> int:
     if options.bodies[-1] > options.stock_up_to:
         print(f"\nstock xsdata was measured up to {options.stock_up_to} bodies only")
     print("Spheres with pose, velocity and mass, one material. The unit is lxml.etree.parse of the")
-    print("same bytes. Peak memory is that of a whole process that prepares and does the step.")
+    print("same file. Peak memory is that of a whole process that prepares and does the step.")
     return 0
 
 

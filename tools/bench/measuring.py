@@ -24,13 +24,13 @@ class Timing:
     ratio: float
 
 
-def interleaved(data: bytes, steps: Sequence[str], repeat: int) -> dict[str, Timing]:
+def interleaved(file: Path, steps: Sequence[str], repeat: int) -> dict[str, Timing]:
     """Time the steps in turns, so that a slow moment of the machine meets all of them.
 
     The ratio is the median over the turns of a step's time to the time of the first step, the
     unit, in the same turn. The first turn warms up and does not count.
     """
-    functions = {step: prepare(step, data) for step in steps}
+    functions = {step: prepare(step, file) for step in steps}
     times: dict[str, list[float]] = {step: [] for step in steps}
     for _ in range(repeat + 1):
         for step, function in functions.items():
@@ -77,7 +77,7 @@ def peak_memory(step: str, file: Path) -> float:
 
 def peak(step: str, file: Path) -> float:
     """Peak resident memory of this process in MB after one step."""
-    prepare(step, file.read_bytes())()
+    prepare(step, file)()
     status = Path("/proc/self/status")
     if status.exists():  # where it does, ru_maxrss is at least that of the process which started us
         line = next(x for x in status.read_text().splitlines() if x.startswith("VmHWM"))

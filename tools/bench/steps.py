@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from io import BytesIO
+from pathlib import Path
 from typing import Any
 
 STOCK = ("xsdata parse", "xsdata serialize")
@@ -60,12 +61,13 @@ def document(count: int) -> bytes:
     return target.getvalue()
 
 
-def prepare(step: str, data: bytes) -> Callable[[], object]:
+def prepare(step: str, file: Path) -> Callable[[], object]:
     """A step of STEPS as a function of nothing, with everything it needs already there."""
     if step == "parse":
         from lxml import etree
 
-        return lambda: etree.parse(BytesIO(data))
+        return lambda: etree.parse(str(file))
+    data = file.read_bytes()
     if step in STOCK:
         return _stock(step, data)
 
