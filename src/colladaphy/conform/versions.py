@@ -11,6 +11,7 @@ from lxml import etree
 from colladaphy.conform import rules
 from colladaphy.conform.context import Context, line_of, local
 from colladaphy.conform.grammar import NAMESPACE
+from colladaphy.source.copying import copy_tree
 
 __all__ = ["NAMESPACE_1_4", "copy_as_1_5", "detect_version", "note_version"]
 
@@ -48,7 +49,7 @@ def copy_as_1_5(
     old = tree.getroot()
     current = etree.QName(old).namespace == NAMESPACE
     if current and not any(_is_old(str(element.tag)) for element in old.iter(etree.Element)):
-        twin = copy.deepcopy(tree)
+        twin = copy_tree(tree)
         root = twin.getroot()
     else:
         root = _rebuild(old)

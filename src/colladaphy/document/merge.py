@@ -24,6 +24,7 @@ from colladaphy.document.placing import (
     remove,
     separator,
 )
+from colladaphy.source.copying import copy_tree
 from colladaphy_schema.codec import decode_document, encode, paused_collector
 from colladaphy_schema.registry import ELEMENTS, PREFIXES
 
@@ -54,7 +55,7 @@ def merge(original: etree._ElementTree, edited: Collada) -> etree._ElementTree:
         before, after = _text(decode_document(original)), _text(edited)
         if before == after:
             return original
-        result = deepcopy(original)
+        result = copy_tree(original)
         parser = etree.XMLParser(huge_tree=True, resolve_entities=False, no_network=True)
         old, new = etree.fromstring(before, parser), etree.fromstring(after, parser)
         holder = Holder()
