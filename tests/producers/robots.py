@@ -7,6 +7,8 @@ and the binds between them stand beside the physics.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from hypothesis import strategies as st
 from tests.producers.markup import (
@@ -33,7 +35,9 @@ QUIRKS = (
     "empty-kinematics",
     "empty-libraries",
     "empty-technique-sids",
+    "library-root-moved",
     "matrix-mass-frame",
+    "moved-joints",
     "no-shapes",
     "no-time-zone",
     "nodes-in-library",
@@ -79,6 +83,14 @@ def robots(draw: st.DrawFn, kinds: tuple[str, ...] = ("mesh",)) -> Scene:
         )
     root = (("translate", (3.0, -4.0, 0.5)), ("rotate", (0.0, 0.0, 1.0, 90.0)))
     return Scene(tuple(links), root=draw(st.sampled_from([(), root])))
+
+
+def meant(scene: Scene, quirks: frozenset[str]) -> Scene:
+    """The scene as it is shown: with the joints turned, where the file has them so."""
+    if "moved-joints" not in quirks:
+        return scene
+    links = [replace(link, joint=25.0 * index) for index, link in enumerate(scene.links)]
+    return replace(scene, links=tuple(links))
 
 
 def write(scene: Scene, producer: str, quirks: frozenset[str]) -> bytes:
@@ -133,8 +145,8 @@ def _node(scene: Scene, index: int, quirks: frozenset[str]) -> str:
         for child, link in enumerate(scene.links)
         if link.parent == index
     )
-    # As URDF's writer does: turns and shifts that do nothing between those that do something.
-    axis = tag("rotate", "0 0 1 0", sid=f"node_joint{index}_axis0")
+    angle = scene.links[index].joint
+    axis = tag("rotate", numbers((0, 0, 1, angle)), sid=f"node_joint{index}_axis0")
     return tag(
         "node",
         transforms(scene.links[index].steps),
@@ -151,10 +163,13 @@ def _visuals(scene: Scene, quirks: frozenset[str]) -> str:
     tops = "".join(_node(scene, i, quirks) for i, link in enumerate(scene.links) if not i)
     assert all(link.parent is not None for link in scene.links[1:])
     nodes = ""
+    place = transforms(scene.root)
     if "nodes-in-library" in quirks:
-        nodes = library("nodes", tag("node", tops, id="v1", name="robot"))
+        inner = place if "library-root-moved" in quirks else ""
+        place = "" if inner else place
+        nodes = library("nodes", tag("node", inner, tops, id="v1", name="robot"))
         tops = tag("instance_node", url="#v1")
-    root = tag("node", transforms(scene.root), tops, id="visual0", sid="visual0", name="robot")
+    root = tag("node", place, tops, id="visual0", sid="visual0", name="robot")
     return library("visual_scenes", tag("visual_scene", root, id="vscene")) + nodes
 
 
@@ -259,7 +274,7 @@ def _kinematics(scene: Scene, quirks: frozenset[str]) -> str:
 
 
 def _binds(scene: Scene, quirks: frozenset[str]) -> list[str]:
-    if "binds" not in quirks:
+    if not quirks & {"binds", "moved-joints"}:
         return []
     model = tag("bind_kinematics_model", tag("param", "kscene_inst"), node="visual0/node0")
     axes = [
@@ -292,6 +307,8 @@ def _bodies(scene: Scene, quirks: frozenset[str]) -> list[str]:
     found = []
     for index, link in enumerate(scene.links):
         place = scene.place_in_model(index)
+        if {"nodes-in-library", "library-root-moved"} <= quirks:
+            place = matrix_of(scene.root) @ place
         frame = place @ matrix_of(link.centre or ())
         rigid = transforms(steps_of(frame))
         shapes = ""

@@ -16,6 +16,7 @@ SOME_QUIRKS = st.sets(st.sampled_from(robots.QUIRKS)).map(frozenset)
 @settings(max_examples=25)
 @given(scene=robots.robots(), producer=st.sampled_from(sorted(robots.TOOLS)), quirks=SOME_QUIRKS)
 def test_any_mixture_of_deviations(scene: Scene, producer: str, quirks: frozenset[str]) -> None:
+    scene = robots.meant(scene, quirks)
     world = accept(robots.write(scene, producer, quirks))
     assert_means(world, scene)
 
@@ -23,6 +24,7 @@ def test_any_mixture_of_deviations(scene: Scene, producer: str, quirks: frozense
 @settings(max_examples=10)
 @given(scene=robots.robots(("box", "sphere", "cylinder", "capsule")), quirks=SOME_QUIRKS)
 def test_primitives(scene: Scene, quirks: frozenset[str]) -> None:
+    scene = robots.meant(scene, quirks)
     world = accept(robots.write(scene, "openrave", quirks - {"no-shapes"}))
     assert_means(world, scene)
 
@@ -30,8 +32,8 @@ def test_primitives(scene: Scene, quirks: frozenset[str]) -> None:
 @pytest.mark.parametrize("producer", sorted(robots.TOOLS))
 @pytest.mark.parametrize("quirk", [None, *robots.QUIRKS])
 def test_each_deviation(producer: str, quirk: str | None) -> None:
-    scene = example()
     quirks = frozenset() if quirk is None else frozenset({quirk})
+    scene = robots.meant(example(), quirks)
     data = robots.write(scene, producer, quirks)
     assert_means(accept(data, cli=True), scene)
     assert codes(data)["convention-chosen"] == 1
@@ -53,3 +55,9 @@ def example() -> Scene:
     )
     root = (("translate", (3.0, -4.0, 0.5)), ("rotate", (0.0, 0.0, 1.0, 90.0)))
     return Scene(links, root=root)
+
+
+def test_frames_are_those_of_the_instanced_root() -> None:
+    quirks = frozenset({"nodes-in-library", "library-root-moved", "moved-joints"})
+    scene = robots.meant(example(), quirks)
+    assert_means(accept(robots.write(scene, "openrave", quirks)), scene)

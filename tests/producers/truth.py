@@ -110,6 +110,8 @@ class Link:
     spin: tuple[float, float, float] = (0.0, 0.0, 0.0)
     parent: int | None = None
     """The link whose node holds its node, where nodes are nested; `steps` are relative to it."""
+    joint: float = 0.0
+    """Degrees about z by which a robot's joint is turned in the file, after `steps`."""
 
 
 @dataclass(frozen=True)
@@ -140,15 +142,16 @@ class Scene:
     root: Steps = field(default=())
     """Where the node above all links is (robots)."""
 
-    def place(self, index: int) -> Floats:
-        """The node of a link in the world."""
+    def place(self, index: int, *, rest: bool = False) -> Floats:
+        """The node of a link in the world; with `rest` with all joints at zero."""
         link = self.links[index]
-        outer = matrix_of(self.root) if link.parent is None else self.place(link.parent)
-        return outer @ matrix_of(link.steps)
+        outer = matrix_of(self.root) if link.parent is None else self.place(link.parent, rest=rest)
+        turn: Steps = () if rest else (("rotate", (0.0, 0.0, 1.0, link.joint)),)
+        return outer @ matrix_of((*link.steps, *turn))
 
     def place_in_model(self, index: int) -> Floats:
-        """The node of a link in the frame of the robot's root."""
-        return np.linalg.inv(matrix_of(self.root)) @ self.place(index)
+        """The node of a link in the frame of the robot's root, with all joints at zero."""
+        return np.linalg.inv(matrix_of(self.root)) @ self.place(index, rest=True)
 
 
 def mass_properties(link: Link) -> tuple[Floats, Floats]:

@@ -7,6 +7,7 @@ versions do, so both readings are compared with the geometry that the bodies sho
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -16,12 +17,13 @@ from colladaphy.conform import rules
 from colladaphy.conform.bodies import body_targets, place_elements
 from colladaphy.conform.context import NS, Context, insert, local
 from colladaphy.conform.conventions.clues import Clues, extents, is_assumed, place_of
+from colladaphy.conform.conventions.places import Places
 from colladaphy.conform.frames import TRANSFORMS, Matrix, inverse
-from colladaphy.conform.solids import are_usable
 
 __all__ = ["apply", "recognise_openhrp3", "recognise_openrave", "recognise_ros"]
 
 _NEAR = 1e-4
+_ROUNDING = 1e-9
 
 
 def recognise_openrave(clues: Clues) -> str | None:
@@ -43,30 +45,48 @@ def recognise_openhrp3(clues: Clues) -> str | None:
 
 @dataclass(slots=True)
 class _Link:
-    """A body, its node, and where the node is in the model's space."""
+    """A body, its node, and where the node is in the model's space: at rest, and as shown."""
 
     body: etree._Element
     node: etree._Element
-    place: Matrix
+    rest: Matrix
+    shown: Matrix
+
+    def readings(self, place: Matrix) -> tuple[Matrix, Matrix, Matrix]:
+        """A frame at `place` in the body's space, under each of `_READINGS`."""
+        return inverse(self.rest) @ place, inverse(self.shown) @ place, place
+
+
+_READINGS = ("the model's space", "the model's space as it is shown", "the body's")
+_LOCAL = 2
 
 
 @dataclass(slots=True)
 class _Votes:
     """How many frames fit the geometry under each reading."""
 
-    model: int = 0
-    local: int = 0
+    counts: list[int] = field(default_factory=lambda: [0] * len(_READINGS))
+    posed: bool = False
+    """Whether any joint is not at zero."""
     why: set[str] = field(default_factory=set)
 
-    def decide(self) -> bool:
-        """Whether the frames are in the model's space; the producer's habit breaks a tie."""
-        return self.model >= self.local
+    def add(self, why: str, distances: Sequence[float]) -> None:
+        """Count the readings that fit best."""
+        self.why.add(why)
+        near = min(distances) + _ROUNDING
+        for reading, distance in enumerate(distances):
+            self.counts[reading] += distance <= near < max(distances)
+
+    def decide(self) -> int:
+        """The reading that fits most frames; the producer's habit breaks a tie."""
+        return max(range(len(_READINGS)), key=lambda reading: (self.counts[reading], -reading))
 
     def __str__(self) -> str:
         if not self.why:
             return "nothing to compare with, so the producer's habit decides"
-        reasons = ", ".join(sorted(self.why))
-        return f"{self.model} fit the model's space, {self.local} the body's ({reasons})"
+        shown = (0, 1, 2) if self.posed else (0, 2)
+        counts = ", ".join(f"{self.counts[i]} {'fit ' * (not i)}{_READINGS[i]}" for i in shown)
+        return f"{counts} ({', '.join(sorted(self.why))})"
 
 
 def apply(context: Context, *, forced: bool) -> None:
@@ -75,29 +95,35 @@ def apply(context: Context, *, forced: bool) -> None:
     With `forced` the model's space is taken whatever the numbers say, with a warning.
     """
     links = _links(context)
-    moved = [link for link in links if not np.allclose(link.place, np.eye(4), atol=1e-9)]
+    moved = [link for link in links if not _is_identity(link.rest) or not _is_identity(link.shown)]
     for what, holders, vote in (
         ("mass frames", _mass_frames, _vote_on_mass),
         ("shapes", _shapes, _vote_on_shape),
     ):
-        votes = _Votes()
+        votes = _Votes(posed=any(not np.allclose(link.rest, link.shown) for link in moved))
         found = [(link, holder) for link in moved for holder in holders(link)]
         for link, holder in found:
             vote(context, link, holder, votes)
         if not found:
             continue
-        if not votes.decide() and not forced:
+        reading = votes.decide()
+        if reading == _LOCAL and not forced:
             message = f"{what} are in the bodies' own space: {votes}"
             context.note(rules.FRAMES_LOCAL, context.root, message)
             continue
-        if not votes.decide():
+        if reading == _LOCAL:
             message = f"{what} were taken from the model's space as asked, but {votes}"
             context.note(rules.FRAMES_DOUBTFUL, context.root, message)
+            reading = 0
         if context.wants(rules.FRAMES):
-            message = f"{len(found)} {what} moved from the model's space to the bodies': {votes}"
+            message = f"{len(found)} {what} moved from {_READINGS[reading]} to the bodies': {votes}"
             context.note(rules.FRAMES, context.root, message)
             for link, holder in found:
-                _move(context, link, holder)
+                _move(context, link, holder, reading)
+
+
+def _is_identity(matrix: Matrix) -> bool:
+    return np.allclose(matrix, np.eye(4), atol=1e-9)
 
 
 def _links(context: Context) -> list[_Link]:
@@ -106,39 +132,23 @@ def _links(context: Context) -> list[_Link]:
         model = context.by_url(instance.get("url"))
         if model is not None:
             parents.setdefault(model, context.by_url(instance.get("parent")))
-    places: dict[etree._Element, Matrix | None] = {}
+    places = Places(context)
     links = []
     for body, node in body_targets(context).items():
         model = body.getparent()
         top = None if model is None else parents.get(model)
-        place = _place_in(node, places)
-        if top is not None and local(top) == "node" and _scene_of(top) is _scene_of(node):
-            above = _place_in(top, places)
-            place = None if above is None or place is None else inverse(above) @ place
-        if place is not None:
-            links.append(_Link(body, node, place))
+        place = places.of(node)
+        if place is None:
+            continue
+        rest, shown = place.rest, place.shown
+        if top is not None and local(top) == "node":
+            above = places.of(top)
+            if above is None:
+                continue
+            if above.scene is place.scene:
+                rest, shown = inverse(above.rest) @ rest, inverse(above.shown) @ shown
+        links.append(_Link(body, node, rest, shown))
     return links
-
-
-def _scene_of(node: etree._Element) -> etree._Element | None:
-    """What a node hangs in: a visual scene, or the library of nodes."""
-    return next((above for above in node.iterancestors() if local(above) != "node"), None)
-
-
-def _place_in(node: etree._Element, known: dict[etree._Element, Matrix | None]) -> Matrix | None:
-    """Where a node is in its scene; None where a transform above it cannot be read."""
-    chain = []
-    current: etree._Element | None = node
-    while current is not None and local(current) == "node" and current not in known:
-        chain.append(current)
-        current = current.getparent()
-    place = known.get(current, np.eye(4)) if current is not None else np.eye(4)
-    for step in reversed(chain):
-        own = place_of(step)
-        place = known[step] = None if own is None or place is None else place @ own
-        if place is not None and not are_usable(place.ravel().tolist()):
-            place = known[step] = None
-    return place
 
 
 def _commons(link: _Link) -> list[etree._Element]:
@@ -178,8 +188,8 @@ def _vote_on_mass(context: Context, link: _Link, frame: etree._Element, votes: _
     place = place_of(frame)
     if place is None:
         return
-    as_local, as_model = place[:3, 3], (inverse(link.place) @ place)[:3, 3]
-    if np.linalg.norm(as_local - as_model) < _NEAR:
+    centres = [reading[:3, 3] for reading in link.readings(place)]
+    if np.ptp(centres, axis=0).max() < _NEAR:
         return
     boxes = [_moved_box(own, box) for _, own, box in _own_geometries(context, link)]
     if boxes:
@@ -189,13 +199,10 @@ def _vote_on_mass(context: Context, link: _Link, frame: etree._Element, votes: _
         def outside(point: Matrix) -> float:
             return float(np.linalg.norm(np.maximum(np.maximum(low - point, point - high), 0.0)))
 
-        votes.why.add("centres of mass inside the shown geometry")
-        distances = outside(as_local), outside(as_model)
+        votes.add("centres of mass inside the shown geometry", [outside(c) for c in centres])
     else:
-        votes.why.add("centres of mass near their body")
-        distances = float(np.linalg.norm(as_local)), float(np.linalg.norm(as_model))
-    votes.model += distances[1] < distances[0]
-    votes.local += distances[0] < distances[1]
+        distances = [float(np.linalg.norm(centre)) for centre in centres]
+        votes.add("centres of mass near their body", distances)
 
 
 def _moved_box(place: Matrix, box: Matrix) -> Matrix:
@@ -208,29 +215,26 @@ def _vote_on_shape(context: Context, link: _Link, shape: etree._Element, votes: 
     place = place_of(shape)
     if place is None:
         return
-    as_model = inverse(link.place) @ place
-    if np.allclose(place, as_model, atol=_NEAR):
+    readings = link.readings(place)
+    if np.ptp(readings, axis=0).max() < _NEAR:
         return
     own = _own_geometries(context, link)
     instance = shape.find(NS + "instance_geometry")
     same = [where for url, where, _ in own if instance is not None and url == instance.get("url")]
     if same:
-        votes.why.add("shapes where the same geometry is shown")
-        distances = [
-            min(float(np.abs(r - where).max()) for where in same) for r in (place, as_model)
-        ]
+        why = "shapes where the same geometry is shown"
+        distances = [min(float(np.abs(r - where).max()) for where in same) for r in readings]
     elif own:
-        votes.why.add("shapes near the shown geometry")
+        why = "shapes near the shown geometry"
         centre = np.mean([_moved_box(where, box).mean(axis=0) for _, where, box in own], axis=0)
-        distances = [float(np.linalg.norm(r[:3, 3] - centre)) for r in (place, as_model)]
+        distances = [float(np.linalg.norm(r[:3, 3] - centre)) for r in readings]
     else:
-        votes.why.add("shapes near their body")
-        distances = [float(np.linalg.norm(r[:3, 3])) for r in (place, as_model)]
-    votes.model += distances[1] < distances[0]
-    votes.local += distances[0] < distances[1]
+        why = "shapes near their body"
+        distances = [float(np.linalg.norm(r[:3, 3])) for r in readings]
+    votes.add(why, distances)
 
 
-def _move(context: Context, link: _Link, holder: etree._Element) -> None:
+def _move(context: Context, link: _Link, holder: etree._Element, reading: int) -> None:
     place = place_of(holder)
     if place is None:
         return
@@ -238,7 +242,7 @@ def _move(context: Context, link: _Link, holder: etree._Element) -> None:
     index = holder.index(old[0]) if old else len(holder)
     if not old:
         index = next((i for i, c in enumerate(holder) if local(c) == "extra"), len(holder))
-    made = place_elements(context, inverse(link.place) @ place)
+    made = place_elements(context, link.readings(place)[reading])
     if not made and local(holder) == "mass_frame":
         made = [context.make("translate", "0 0 0")]
     tail = old[-1].tail if old else None
