@@ -81,11 +81,11 @@ def test_strict_reading_raises_with_all_findings() -> None:
     assert len(caught.value.findings) >= 2
 
 
-def test_repair_reports_and_goes_on() -> None:
+def test_a_tolerant_document_reports_and_goes_on() -> None:
     data = simple().replace(b'target="#n"', b'target="#nowhere"')
     with pytest.raises(colladaphy.DocumentError):
         colladaphy.read(data).load()
-    document = colladaphy.read(data, repair=True)
+    document = colladaphy.Document(colladaphy.read(data).tree, tolerant=True)
     assert len(document.load().bodies) == 0
     assert "link-missing" in [finding.code for finding in document.report]
 
@@ -112,3 +112,24 @@ def test_a_world_without_bodies(tmp_path: Path) -> None:
 def test_scenes_of_a_document_without_any() -> None:
     data = collada(model(body()), scene(instance()), effects=())
     assert len(list(colladaphy.read(data).scenes)) == 1
+
+
+def test_other_files_of_an_archive_are_kept(tmp_path: Path) -> None:
+    from colladaphy.source import pack
+
+    (tmp_path / "a.zae").write_bytes(
+        pack(simple(), name="in/scene.dae", others={"in/picture.png": b"pixels", "note.txt": b"n"})
+    )
+    document = colladaphy.read(tmp_path / "a.zae")
+    document.write(tmp_path / "b.zae")
+    again = colladaphy.read(tmp_path / "b.zae")
+    assert again.archive is not None
+    assert again.archive.read("in/picture.png") == b"pixels"
+    assert again.archive.read("note.txt") == b"n"
+    assert again.archive.root() == "in/scene.dae"
+
+
+def test_findings_are_logged_too(caplog: pytest.LogCaptureFixture) -> None:
+    document = colladaphy.read(simple("<shape><sphere><radius>0</radius></sphere></shape>"))
+    document.load()
+    assert "load-empty-shape" in caplog.text

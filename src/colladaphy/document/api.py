@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from os import PathLike, fspath
 from typing import TYPE_CHECKING, Any, BinaryIO
 
@@ -9,15 +10,17 @@ from lxml import etree
 
 from colladaphy.document.document import Document
 from colladaphy.errors import SchemaError
-from colladaphy.findings import Report
+from colladaphy.findings import Report, Severity
 from colladaphy.schema import gate
-from colladaphy.source import Limits, Parsed, Source, pack, parse, save
+from colladaphy.source import Archive, Limits, Parsed, Source, pack, parse, save
 
 if TYPE_CHECKING:
     from colladaphy.mapper import WriteOptions
     from colladaphy.world import World
 
 __all__ = ["document_bytes", "read", "write"]
+
+_log = logging.getLogger(__name__)
 
 Output = str | PathLike[str] | BinaryIO
 
@@ -53,7 +56,8 @@ def document_of(
         report.extend(changes)
     faults = gate(tree)
     report.extend(faults)
-    if faults:
+    _log.info("read %s with %d findings", parsed.file or "a document", len(report))
+    if any(fault.severity is Severity.ERROR for fault in faults):
         raise SchemaError(report.findings)
 
     def opener(file: str) -> Document:
@@ -61,7 +65,13 @@ def document_of(
         return document_of(other, repair=repair, convention=convention, family=family)
 
     return Document(
-        tree, file=parsed.file, report=report, opener=opener, family=family, tolerant=repair
+        tree,
+        file=parsed.file,
+        report=report,
+        opener=opener,
+        family=family,
+        tolerant=repair,
+        archive=parsed.archive,
     )
 
 
@@ -80,8 +90,19 @@ def write(
 
         data = store(content, options)
     if _is_archive(target):
-        data = pack(data)
+        archive = content.archive if isinstance(content, Document) else None
+        data = pack(data) if archive is None else _repacked(data, archive)
     save(data, target)
+    _log.info("wrote %d bytes to %s", len(data), target)
+
+
+def _repacked(data: bytes, archive: Archive) -> bytes:
+    """An archive with another document in it, and everything else as it was."""
+    name = archive.root()
+    others = {
+        other: archive.read(other) for other in archive.names if other not in (name, "manifest.xml")
+    }
+    return pack(data, name=name, others=others)
 
 
 def _is_archive(target: Any) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -15,13 +16,22 @@ from colladaphy.document.nodes import Placement
 from colladaphy.document.references import Target, follow
 from colladaphy.document.scenes import Scene, Scenes
 from colladaphy.errors import DocumentError
-from colladaphy.findings import Report, Rule
+from colladaphy.findings import Report, Rule, Severity
 
 if TYPE_CHECKING:
+    from colladaphy.source import Archive
     from colladaphy.world import World
     from colladaphy_schema.document import Collada
 
 __all__ = ["Document", "Prefer"]
+
+_log = logging.getLogger(__name__)
+_LEVELS = {
+    Severity.ERROR: logging.ERROR,
+    Severity.WARNING: logging.WARNING,
+    Severity.INFO: logging.INFO,
+    Severity.HINT: logging.DEBUG,
+}
 
 Prefer = Literal["newer", "profile", "common"]
 Opener = Callable[[str], "Document"]
@@ -43,6 +53,7 @@ class Document:
         opener: Opener | None = None,
         family: dict[str, Document] | None = None,
         tolerant: bool = False,
+        archive: Archive | None = None,
     ) -> None:
         self._tree = tree
         self._root: Collada | None = None
@@ -50,6 +61,8 @@ class Document:
         self._placement: Placement | None = None
         self._opener = opener
         self._family: dict[str, Document] = {} if family is None else family
+        self.archive = archive
+        """The archive that the document comes from, whose other files are kept on writing one."""
         self.file = file
         self.tolerant = tolerant
         """Whether references that lead nowhere are only reported, not refused."""
@@ -79,6 +92,11 @@ class Document:
             with paused_collector():
                 self._root = decode(self._tree.getroot(), Collada)
         return self._root
+
+    @property
+    def is_as_read(self) -> bool:
+        """Whether nobody can have edited `root`, so that the tree is as the schema has it."""
+        return self._root is None
 
     @property
     def index(self) -> Index:
@@ -149,7 +167,9 @@ class Document:
         file: str | None = None,
     ) -> None:
         """Add a finding about this document to its report."""
-        self.report.add(rule.at(element, message, file=file or self.file))
+        finding = rule.at(element, message, file=file or self.file)
+        self.report.add(finding)
+        _log.log(_LEVELS[finding.severity], "%s", finding)
 
     def load(
         self,
