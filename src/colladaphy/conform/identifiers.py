@@ -9,6 +9,7 @@ from lxml import etree
 from colladaphy.conform import rules
 from colladaphy.conform.context import NS, Context, local, standard_elements
 from colladaphy.conform.lexical import name_from
+from colladaphy.schema_references import EXPECTED
 
 __all__ = ["mend_ids", "mend_sids"]
 
@@ -20,6 +21,16 @@ _BARE = ("url", "source", "parent", "convex_hull_of", "proxy", "camera_node")
 _SOURCES = ("input", "accessor", "skin", "morph", "channel")
 _TEXTS = ("skeleton", "SIDREF", "param")
 _LISTS = ("IDREF_array", "SIDREF_array")
+_OF_TEXTS = {"init_from": ("image",), "skeleton": ("node",)}
+_ARRAYS = (
+    "bool_array",
+    "float_array",
+    "IDREF_array",
+    "int_array",
+    "Name_array",
+    "SIDREF_array",
+    "token_array",
+)
 
 
 def mend_ids(context: Context) -> None:
@@ -81,33 +92,52 @@ class _Scope:
     """For one id of the file: the definitions it had, and which of them a reference means."""
 
     def __init__(self, owners: list[tuple[etree._Element, str]]) -> None:
-        self.first = owners[0][1]
-        self.below: dict[etree._Element, str] = {}
-        if len(owners) > 1:
-            for owner, name in owners:
-                for above in (owner, *owner.iterancestors()):
-                    self.below.setdefault(above, name)
+        self._owners = owners
+        self._below: dict[tuple[str, ...], dict[etree._Element, str]] = {}
 
-    def find(self, element: etree._Element) -> str:
-        """The new name of the definition that shares most ancestors with `element`."""
-        if self.below:
+    def find(self, element: etree._Element, kinds: tuple[str, ...] = ()) -> str:
+        """The new name of the definition of these kinds nearest to `element`.
+
+        That is the one which shares most ancestors with it; where none is of these kinds, all
+        are looked at.
+        """
+        if len(self._owners) > 1:
+            if kinds not in self._below:
+                self._below[kinds] = self._near(kinds)
+            below = self._below[kinds]
             for above in (element, *element.iterancestors()):
-                if above in self.below:
-                    return self.below[above]
-        return self.first
+                if above in below:
+                    return below[above]
+        return self._owners[0][1]
+
+    def _near(self, kinds: tuple[str, ...]) -> dict[etree._Element, str]:
+        """The definition that counts below every element that holds one."""
+        below: dict[etree._Element, str] = {}
+        meant = [owner for owner in self._owners if local(owner[0]) in kinds]
+        for owner, name in meant or self._owners:
+            for above in (owner, *owner.iterancestors()):
+                below.setdefault(above, name)
+        return below
 
 
 def _rewrite(root: etree._Element, changed: dict[str, _Scope]) -> None:
     for element in standard_elements(root):
         for key, value in list(element.attrib.items()):
             if key in _URLS or key in _PATHS:
-                new = _reference(element, str(value), changed, bare=_may_be_bare(element, str(key)))
+                new = _reference(
+                    element,
+                    str(value),
+                    changed,
+                    bare=_may_be_bare(element, str(key)),
+                    kinds=_expected(element, str(key)),
+                )
                 if new is not None:
                     element.set(key, new)
         name = local(element)
         if name in _TEXTS or (name == "init_from" and _in_surface(element)):
-            bare = name == "init_from"
-            new = _reference(element, (element.text or "").strip(), changed, bare=bare)
+            bare, kinds = name == "init_from", _OF_TEXTS.get(name, ())
+            text = (element.text or "").strip()
+            new = _reference(element, text, changed, bare=bare, kinds=kinds)
             if new is not None:
                 element.text = new
         elif name in _LISTS:
@@ -122,20 +152,38 @@ def _may_be_bare(element: etree._Element, key: str) -> bool:
     return key in _BARE and (key != "source" or local(element) in _SOURCES)
 
 
+def _expected(element: etree._Element, key: str) -> tuple[str, ...]:
+    """The elements that an attribute may refer to."""
+    name = local(element)
+    if (name, key) == ("input", "source"):
+        return ("vertices",) if element.get("semantic") == "VERTEX" else ("source",)
+    if (name, key) == ("accessor", "source"):
+        return _ARRAYS
+    return EXPECTED.get((name, key), ())
+
+
 def _in_surface(element: etree._Element) -> bool:
     parent = element.getparent()
     return parent is not None and local(parent) == "surface"
 
 
 def _reference(
-    element: etree._Element, value: str, changed: dict[str, _Scope], *, bare: bool
+    element: etree._Element,
+    value: str,
+    changed: dict[str, _Scope],
+    *,
+    bare: bool,
+    kinds: tuple[str, ...] = (),
 ) -> str | None:
-    """`value` with the id in it replaced; `bare` where an id may stand without a '#'."""
+    """`value` with the id in it replaced; `bare` where an id may stand without a '#'.
+
+    `kinds` are the elements that a whole reference may lead to; a path only begins at an id.
+    """
     mark = "#" if value.startswith("#") else ""
     body = value[len(mark) :]
     scope = changed.get(body) if mark or bare else None
     if scope is not None:
-        return mark + scope.find(element)
+        return mark + scope.find(element, kinds)
     head, slash, rest = body.partition("/")
     scope = changed.get(head) if slash and head not in (".", "") else None
     return None if scope is None else f"{mark}{scope.find(element)}{slash}{rest}"

@@ -7,7 +7,16 @@ from collections.abc import Callable, Collection
 import numpy as np
 from lxml import etree
 
-from colladaphy.conform import bodies, references, rules, shapes, structure, upgrade
+from colladaphy.conform import (
+    bodies,
+    references,
+    rules,
+    scenes,
+    shapes,
+    structure,
+    targets,
+    upgrade,
+)
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import translate
 from colladaphy.conform.conventions.units import free_limits
@@ -48,6 +57,11 @@ _FORM: tuple[_Step, ...] = (
 )
 _REFERENCES: tuple[_Step, ...] = (
     references.mend_urls,
+    scenes.mend_scenes,
+    scenes.complete_scene,
+    targets.mend_inputs,
+    targets.mend_parents,
+    targets.mend_targets,
     references.complete_instances,
     references.mend_instances,
     references.mend_attachments,

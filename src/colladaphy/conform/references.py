@@ -66,24 +66,12 @@ class _Index:
 
 
 def mend_urls(context: Context) -> None:
-    """References within the document begin with '#'; a scene that is not there is the only one."""
+    """References within the document begin with '#'."""
     for element, kind in typed_elements(context.root):
         for key in _URLS:
             known = kind.attributes.get(key)
             if known is not None and known.type.name in ("xs:anyURI", "urifragment_type"):
                 _hash(context, element, key)
-    scenes = context.all("physics_scene")
-    for instance in context.all("instance_physics_scene"):
-        url = instance.get("url", "")
-        if "#" not in url or not url.startswith("#") or context.by_url(url) is not None:
-            continue
-        if len(scenes) == 1 and context.wants(rules.DANGLING_SCENE):
-            if not scenes[0].get("id"):
-                scenes[0].set("id", context.new_id("physics_scene"))
-            new = f"#{scenes[0].get('id')}"
-            instance.set("url", new)
-            message = f"there is no physics scene {url}; the only one, {new}, is taken"
-            context.note(rules.DANGLING_SCENE, instance, message)
 
 
 def _hash(context: Context, element: etree._Element, key: str) -> None:

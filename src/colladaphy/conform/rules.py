@@ -101,7 +101,7 @@ ID_DUPLICATE = Rule(
     "repair-duplicate-id",
     _WARNING,
     "an id was used more than once",
-    "later ones were renamed; references go to the nearest definition",
+    "later ones were renamed; references go to the nearest definition of the kind they expect",
 )
 SID_FORM = Rule(
     "repair-sid-form", _WARNING, "a sid was not an NCName", "references by it were rewritten"
@@ -259,6 +259,30 @@ DANGLING_SCENE = Rule(
     _WARNING,
     "a physics scene was instanced that is not there",
     "check the scene that was taken",
+)
+MISSING_SCENE = Rule(
+    "repair-missing-scene",
+    _WARNING,
+    "the document's scene put no physics scene into effect",
+    "instance in <scene> the physics scene that you mean",
+)
+DANGLING_TARGET = Rule(
+    "repair-dangling-target",
+    _WARNING,
+    "an instance of a body was to move a node that is not there",
+    "check the node that was taken or added",
+)
+PARENT = Rule(
+    "repair-parent",
+    _WARNING,
+    "the parent of a physics model's instance was not a node",
+    "it is kept in an extra; the instance has no parent now",
+)
+INPUT_ARRAY = Rule(
+    "repair-input-array",
+    _INFO,
+    "an input named an array instead of what holds it",
+    "inputs refer to sources and vertices",
 )
 # Images and effects.
 EFFECT_IMAGE = Rule(

@@ -15,6 +15,7 @@ from lxml import etree
 from colladaphy.document import rules
 from colladaphy.errors import ColladaError
 from colladaphy.findings import Finding, Severity
+from colladaphy.schema_references import EXPECTED
 from colladaphy.source import COLLADA_1_5
 from colladaphy.source import rules as source_rules
 
@@ -25,40 +26,6 @@ __all__ = ["check_links"]
 
 _NS = f"{{{COLLADA_1_5}}}"
 
-# What a reference must lead to, by the element and the attribute that holds it. An instance_*
-# element refers to the element that its name says, unless it is listed here.
-_EXPECTED: dict[tuple[str, str], tuple[str, ...]] = {
-    ("instance_rigid_body", "target"): ("node",),
-    ("instance_physics_model", "parent"): ("node",),
-    ("instance_material", "target"): ("material",),
-    ("convex_mesh", "convex_hull_of"): ("geometry",),
-    ("attachment", "rigid_body"): ("rigid_body", "node", "instance_rigid_body"),
-    ("ref_attachment", "rigid_body"): ("rigid_body", "node", "instance_rigid_body"),
-    ("skin", "source"): ("geometry",),
-    ("morph", "source"): ("geometry",),
-    ("input", "source"): ("source", "vertices"),
-    ("channel", "source"): ("sampler",),
-}
-_INSTANCES = (
-    "animation",
-    "articulated_system",
-    "camera",
-    "controller",
-    "effect",
-    "force_field",
-    "formula",
-    "geometry",
-    "joint",
-    "kinematics_model",
-    "kinematics_scene",
-    "light",
-    "node",
-    "physics_material",
-    "physics_model",
-    "physics_scene",
-    "visual_scene",
-)
-_EXPECTED |= {(f"instance_{name}", "url"): (name,) for name in _INSTANCES}
 # References whose attributes name a part of the physics model that the parent instances.
 _PARTS = {
     ("instance_rigid_body", "body"): "rigid_body",
@@ -110,7 +77,7 @@ def _references(
 ) -> Iterator[tuple[etree._Element, str, tuple[str, ...]]]:
     """References in the document's own content; what a technique holds is its own affair."""
     by_name: dict[str, list[tuple[str, tuple[str, ...]]]] = {}
-    for (name, attribute), expected in _EXPECTED.items():
+    for (name, attribute), expected in EXPECTED.items():
         by_name.setdefault(_NS + name, []).append((attribute, expected))
     for element in tree.iter(*by_name):
         for attribute, expected in by_name[str(element.tag)]:
