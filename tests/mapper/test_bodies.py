@@ -230,3 +230,14 @@ def test_values_out_of_range_are_moved_into_it() -> None:
     assert found is not None
     assert (found.dynamic_friction, found.restitution) == (0.0, 1.0)
     assert [f.code for f in document.report] == ["load-material-bad"] * 2
+
+
+def test_an_impossible_member_skips_only_its_union() -> None:
+    good = f"<shape><mass>1</mass>{SPHERE}</shape>"
+    bad = f"<shape><mass>-1</mass>{SPHERE}</shape>"
+    bodies = [body("a", good + bad), body("b", good + good)]
+    document = colladaphy.read(collada(model(*bodies), scene(instance("a"), instance("b"))))
+    world = document.load()
+    assert [each.mass for each in world.bodies] == [2.0]
+    assert len(world.member_columns.sids) == 2
+    assert "load-bad-value" in [finding.code for finding in document.report]

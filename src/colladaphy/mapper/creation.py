@@ -61,16 +61,36 @@ def free_ids(wanted: Sequence[int | None], taken: Iterable[int]) -> list[int]:
 def create_bodies(world: World, plans: Sequence[Plan], document: Document) -> list[Plan]:
     """Create all bodies; returns the plans of those that the World took."""
     whole = [plan for plan in plans if plan.part.kind is not Kind.UNION]
+    unions = [plan for plan in plans if plan.part.kind is Kind.UNION]
     created = _create_primitives(world, whole, document)
-    for plan in plans:
-        if plan.part.kind is Kind.UNION:
-            try:
-                _create_union(world, plan)
-            except WorldError as error:
-                _refused(document, plan, error)
-            else:
-                created.append(plan)
+    there = _create_members(world, unions)
+    for plan in unions:
+        try:
+            _create_union(world, plan, there=there)
+        except WorldError as error:
+            _refused(document, plan, error)
+        else:
+            created.append(plan)
     return created
+
+
+def _create_members(world: World, unions: Sequence[Plan]) -> bool:
+    """Create the primitives of all unions in bulk; False, and none, if the World refuses any."""
+    groups: dict[tuple[bool, bool], list[Part]] = {}
+    for plan in unions:
+        for part in parts_of(plan.part):
+            if part.kind is not Kind.UNION:
+                key = (part.mass is None, part.inertia is None)
+                groups.setdefault(key, []).append(part)
+    made: list[int] = []
+    for group in groups.values():
+        try:
+            made += world.extend(columns_of(group, None)).tolist()
+        except WorldError:
+            for sid in made:
+                world.destroy(world.body(sid))
+            return False
+    return True
 
 
 def _refused(document: Document, plan: Plan, error: WorldError) -> None:
@@ -127,19 +147,20 @@ def columns_of(parts: Sequence[Part], plans: Sequence[Plan] | None) -> BodyColum
     return columns
 
 
-def _create_union(world: World, plan: Plan) -> None:
-    """Create a union with all its members, exactly as the plan has it."""
-    made: list[int] = []
+def _create_union(world: World, plan: Plan, *, there: bool) -> None:
+    """Create a union exactly as the plan has it; its primitives may be `there` already."""
     try:
-        _create_part(world, plan.part, made)
+        _create_part(world, plan.part, there=there)
     except WorldError:
-        for sid in reversed(made):
-            if sid in world and world.parent_of(sid) is None:
-                world.destroy(world.body(sid))
+        for part in reversed(list(parts_of(plan.part))):
+            if part.sid in world and part.sid is not None and world.parent_of(part.sid) is None:
+                world.destroy(world.body(part.sid))
         raise
-    row = world.top.find(made[-1])
+    sid = plan.part.sid
+    assert sid is not None
+    row = world.top.find(sid)
     for name, value in (
-        ("fixed", plan.fixed or world.is_infinite(made[-1])),
+        ("fixed", plan.fixed or world.is_infinite(sid)),
         ("sleeping", plan.sleeping),
         ("linear_velocities", plan.linear_velocity),
         ("angular_velocities", plan.angular_velocity),
@@ -149,14 +170,14 @@ def _create_union(world: World, plan: Plan) -> None:
         world.top.raw(name)[row] = value
 
 
-def _create_part(world: World, part: Part, made: list[int]) -> None:
+def _create_part(world: World, part: Part, *, there: bool) -> None:
     assert part.sid is not None
     if part.kind is not Kind.UNION:
-        world.extend(columns_of([part], None))
-        made.append(part.sid)
+        if not there:
+            world.extend(columns_of([part], None))
         return
     for member in part.members:
-        _create_part(world, member, made)
+        _create_part(world, member, there=there)
     inertia = None if part.inertia is None else np.array(part.inertia).reshape(3, 3)
     world.create_union(
         part.uid or 0,
@@ -169,6 +190,5 @@ def _create_part(world: World, part: Part, made: list[int]) -> None:
         name=part.name,
         members_are_local=True,
     )
-    made.append(part.sid)
     # As it was stored, even where its length is not one.
     world.top.raw("orientations")[world.top.find(part.sid)] = part.pose.rotation

@@ -49,19 +49,29 @@ def _texts(element: etree._Element) -> Iterator[str]:
 class Precision:
     """How exactly the numbers of one record are written."""
 
-    __slots__ = ("tolerance",)
+    __slots__ = ("_records", "_tolerance")
 
     def __init__(self, records: Iterable[etree._Element]) -> None:
+        self._records = tuple(records)
+        self._tolerance: float | None = None
+
+    @property
+    def tolerance(self) -> float:
+        """Relative difference up to which numbers are the same."""
+        if self._tolerance is None:
+            self._tolerance = self._measure()
+        return self._tolerance
+
+    def _measure(self) -> float:
         most = _FEWEST_DIGITS
-        for record in records:
+        for record in self._records:
             for text in _texts(record):
                 for word in text.split():
                     if word[-1:].isdigit():
                         most = max(most, significant_digits(word))
         digits = min(most, _ALL_DIGITS)
         # Half a unit of the last digit of a number that begins with 1, and some for arithmetic.
-        self.tolerance = 0.5 * 10.0 ** (1 - digits) * 1.000001
-        """Relative difference up to which numbers are the same."""
+        return 0.5 * 10.0 ** (1 - digits) * 1.000001
 
     def same(self, one: float, other: float, scale: float = 0.0) -> bool:
         """Whether two numbers are the same; `scale` is that of the vector they are parts of."""
