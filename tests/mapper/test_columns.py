@@ -58,7 +58,10 @@ EDITS = {
 
 
 @settings(max_examples=60)
-@given(worlds(wild=False), st.lists(st.sampled_from(sorted(EDITS)), min_size=1, max_size=3))
+@given(
+    worlds(wild=False),
+    st.lists(st.sampled_from(sorted(EDITS)), min_size=1, max_size=3, unique=True),
+)
 def test_both_paths_agree_on_edited_files(world: World, edits: list[str]) -> None:
     data = text_of(world)
     for edit in edits:

@@ -16,6 +16,7 @@ from colladaphy.document.names import c, local_name
 __all__ = ["Index"]
 
 _INSTANCE_NODE = c("instance_node")
+_VISUAL_SCENES = c("library_visual_scenes")
 
 
 class Index:
@@ -41,22 +42,26 @@ class Index:
     def find(self, name: str) -> etree._Element | None:
         """The element of an id.
 
-        What references mostly lead to stands directly in a library, so that is looked at first
-        (thesis 5.5), and all ids are collected only when that is not enough.
+        What references mostly lead to stands directly in a library or in a visual scene, so that
+        is looked at first (thesis 5.5), and all ids are collected only when that is not enough.
+        Only inside of techniques, where the schema lets anything pass, an id can be there again.
         """
-        if self._ids is None:
-            if self._shallow is None:
-                self._shallow = {
-                    element.get("id", ""): element
-                    for library in self._tree.getroot()
-                    if local_name(library.tag).startswith("library_")
-                    for element in library.iterchildren("{*}*")
-                }
-                self._shallow.pop("", None)
-            found = self._shallow.get(name)
-            if found is not None:
-                return found
-        return self.ids.get(name)
+        if self._shallow is None:
+            self._shallow = {}
+            for library in self._tree.getroot().iterchildren("{*}*"):
+                if local_name(library.tag).startswith("library_"):
+                    self._add_children(library)
+                    if library.tag == _VISUAL_SCENES:
+                        for scene in library.iterchildren("{*}*"):
+                            self._add_children(scene)
+            self._shallow.pop("", None)
+        found = self._shallow.get(name)
+        return self.ids.get(name) if found is None else found
+
+    def _add_children(self, parent: etree._Element) -> None:
+        assert self._shallow is not None
+        for element in parent.iterchildren("{*}*"):
+            self._shallow.setdefault(element.get("id", ""), element)
 
     def within(self, scope: etree._Element, sid: str) -> etree._Element | None:
         """The element of a sid below `scope`: the nearest first, breadth before depth."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,21 +12,36 @@ from numpy.typing import NDArray
 from colladaphy.errors import WorldError
 from colladaphy.mapper.creation import free_ids, parts_of
 from colladaphy.mapper.plans import Part, Plan
-from colladaphy.mapper.rows import Nodes, Rows, columns_of, read_rows
 from colladaphy.world.columns import BodyColumns
 from colladaphy.world.kinds import Kind
 
 if TYPE_CHECKING:
     from lxml import etree
 
-    from colladaphy.document import Document, Prefer
     from colladaphy.mapper.instances import ModelInstance
-    from colladaphy.mapper.materials import MaterialTable
     from colladaphy.world import World
 
-__all__ = ["Batch", "RegularBodies", "assign_ids"]
+__all__ = ["Batch", "Rows", "assign_ids"]
 
 Array = NDArray[Any]
+
+
+@dataclass(slots=True)
+class Rows:
+    """The bodies in columns, as far as ids and constraints need them; one entry a body."""
+
+    elements: list[etree._Element] = field(default_factory=list)
+    """The instance_rigid_body elements."""
+    places: list[int] = field(default_factory=list)
+    """Their places among all instances of the model."""
+    bodies: list[etree._Element] = field(default_factory=list)
+    """The rigid_body elements."""
+    sids: list[int | None] = field(default_factory=list)
+    """The system ids that are wanted."""
+    kinds: list[int] = field(default_factory=list)
+
+    def __len__(self) -> int:
+        return len(self.elements)
 
 
 class Batch:
@@ -65,55 +81,6 @@ class Batch:
             rows.kinds, self.sids.tolist(), rows.bodies, rows.elements, strict=False
         ):
             yield body, Plan(Part(Kind(kind), sid=sid), element, self.model.document.file)
-
-
-class RegularBodies:
-    """Reads the regular bodies of model instances."""
-
-    def __init__(self, materials: MaterialTable, prefer: Prefer) -> None:
-        self._materials = materials
-        self._prefer = prefer
-        self._nodes: dict[int, Nodes] = {}
-
-    def read(self, batch: Batch) -> list[tuple[int, etree._Element]]:
-        """Put the regular bodies of a model instance into its batch; returns the others."""
-        rows, others = read_rows(batch.model, self._nodes_of(batch.model.document), self._materials)
-        if not len(rows):
-            return others
-        try:
-            columns, doubtful = columns_of(rows, self._prefer)
-        except ValueError:
-            return sorted([*others, *zip(rows.places, rows.elements, strict=True)], key=_place)
-        if doubtful:
-            others += [(rows.places[row], rows.elements[row]) for row in doubtful]
-            others.sort(key=_place)
-            columns = _without(rows, columns, doubtful)
-        batch.rows, batch.columns = rows, columns
-        return others
-
-    def _nodes_of(self, document: Document) -> Nodes:
-        known = self._nodes.get(id(document))
-        if known is None:
-            known = self._nodes[id(document)] = Nodes(document)
-        return known
-
-
-def _place(other: tuple[int, object]) -> int:
-    return other[0]
-
-
-def _without(rows: Rows, columns: BodyColumns, doubtful: Sequence[int]) -> BodyColumns:
-    """Take rows out, of the lists that are still needed and of the columns."""
-    left = sorted(set(range(len(rows))) - set(doubtful))
-    for name in ("elements", "places", "bodies", "sids", "names", "kinds"):
-        values = getattr(rows, name)
-        setattr(rows, name, [values[row] for row in left])
-    chosen = {
-        name: getattr(columns, name)[left]
-        for name in BodyColumns.__slots__
-        if isinstance(getattr(columns, name), np.ndarray)
-    }
-    return BodyColumns(**chosen, names=rows.names)
 
 
 def assign_ids(batches: Sequence[Batch]) -> None:

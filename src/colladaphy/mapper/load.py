@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from lxml import etree
@@ -16,8 +16,9 @@ from colladaphy.document.references import split_reference
 from colladaphy.errors import DocumentError
 from colladaphy.findings import Severity
 from colladaphy.mapper import rules
-from colladaphy.mapper.batches import Batch, RegularBodies, assign_ids
+from colladaphy.mapper.batches import Batch, assign_ids
 from colladaphy.mapper.bodies import BodyInstance, BodyReader
+from colladaphy.mapper.columns import RegularBodies
 from colladaphy.mapper.constraints import Attached, ConstraintReader
 from colladaphy.mapper.creation import create_bodies, free_ids
 from colladaphy.mapper.geometries import Geometries
@@ -88,7 +89,9 @@ class _Loader:
         self._geometries = Geometries(document, self._world)
         self._materials = MaterialTable(document, self._world, prefer)
         self._bodies = BodyReader(document, self._world, self._geometries, self._materials, prefer)
-        self._regular = RegularBodies(self._materials, prefer) if columns else None
+        self._regular: RegularBodies | None = None
+        if columns and document.is_as_read:
+            self._regular = RegularBodies(document, self._materials, prefer)
         self._plans: dict[tuple[ModelInstance, etree._Element], list[Plan]] = {}
         self._by_body: dict[etree._Element, list[Plan]] = {}
         self._refused: set[int] = set()
@@ -133,10 +136,11 @@ class _Loader:
     def _model(self, model: ModelInstance) -> Batch:
         """The bodies of a model instance: regular ones as columns, the others as plans."""
         batch = Batch(model)
-        if self._regular is not None and not model.parents:
+        others: Iterable[tuple[int, etree._Element]]
+        if self._regular is not None:
             others = self._regular.read(batch)
         else:
-            others = list(enumerate(model.element.iterchildren(c("instance_rigid_body"))))
+            others = enumerate(model.element.iterchildren(c("instance_rigid_body")))
         for place, element in others:
             plan = self._body(model, element)
             if plan is not None:

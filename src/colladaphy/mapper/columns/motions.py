@@ -1,0 +1,74 @@
+"""The instances of rigid_bodies as columns (thesis 5.3; COLLADA 1.5 §instance_rigid_body)."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import numpy as np
+from lxml import etree
+from numpy.typing import NDArray
+
+from colladaphy.document.names import c
+from colladaphy.mapper.columns.texts import Column, number_rows, recognised, record_texts
+from colladaphy.mapper.numbers import DEGREE
+
+__all__ = ["KEPT", "MotionTable"]
+
+Array = NDArray[Any]
+
+KEPT = ("position", "orientation", "linear_velocity", "angular_velocity", "force", "torque")
+"""What the pe profile says of a motion."""
+
+# Nothing but velocities, and of the pe profile nothing but the motion. The end tag is left out.
+_REGULAR = re.compile(
+    r"\s*<instance_rigid_body\s[^>]*>\s*(?:<technique_common/>|<technique_common>\s*"
+    r"(?:<angular_velocity>(?P<angular>[^<]+)</angular_velocity>\s*)?"
+    r"(?:<velocity>(?P<linear>[^<]+)</velocity>\s*)?</technique_common>)\s*"
+    r'(?:<technique profile="pe">\s*<pe:motion(?: sleeping="(?P<sleeping>[^"]*)")?(?:/>|>\s*'
+    + "".join(rf"(?:<pe:{name}>(?P<{name}>[^<]+)</pe:{name}>\s*)?" for name in KEPT)
+    + r"</pe:motion>)\s*</technique>\s*)?"
+)
+
+
+class MotionTable:
+    """One row for each instance_rigid_body of an instance of a model."""
+
+    def __init__(self, model: etree._Element) -> None:
+        self.elements = list(model.iterchildren(c("instance_rigid_body")))
+        count = len(self.elements)
+        self.regular: Array = np.zeros(count, dtype=np.bool_)
+        self.bodies = [element.get("body", "") for element in self.elements]
+        self.targets = [element.get("target", "") for element in self.elements]
+        self.linear: Array = np.zeros((count, 3))
+        self.angular: Array = np.zeros((count, 3))
+        """In radians."""
+        self.sleeping: Array = np.zeros(count, dtype=np.bool_)
+        self.kept: dict[str, Array] = {
+            name: np.zeros((count, 4 if name == "orientation" else 3)) for name in KEPT
+        }
+        self.has: dict[str, Array] = {name: np.zeros(count, dtype=np.bool_) for name in KEPT}
+        """Where the pe profile has a value."""
+        self.names: dict[int, str] = {}
+        """Names by row."""
+        texts = record_texts(model, "instance_rigid_body", count)
+        if texts:
+            rows, columns = recognised(_REGULAR, texts)
+            try:
+                self._read(rows, columns)
+            except ValueError:
+                return
+            self.regular[rows] = True
+
+    def _read(self, rows: Array, columns: dict[str, Column]) -> None:
+        self.linear[rows] = number_rows(columns["linear"], 3)[0]
+        self.angular[rows] = number_rows(columns["angular"], 3)[0] * DEGREE
+        self.sleeping[rows] = [text in ("true", "1") for text in columns["sleeping"]]
+        for name in KEPT:
+            values, has = number_rows(columns[name], self.kept[name].shape[1])
+            self.kept[name][rows] = values
+            self.has[name][rows] = has
+        for row, element in enumerate(self.elements):
+            stated = element.get("name")
+            if stated is not None:
+                self.names[row] = stated
