@@ -54,12 +54,17 @@ def differences(first: bytes, second: bytes) -> list[str]:
     for old, new in zip(one, other, strict=True):
         if old.nsmap != new.nsmap:
             found.append(f"namespaces of {old.tag}: {old.nsmap}, {new.nsmap}")
-        for part in ("text", "tail"):
-            if getattr(old, part) != getattr(new, part):
-                found.append(f"{part} of {old.tag}: {getattr(new, part)!r}")
-        for name in {*old.keys(), *new.keys()} if isinstance(old.tag, str) else ():
-            if old.get(name) != new.get(name):
-                found.append(f"@{name} of {old.tag}: {new.get(name)!r}")
+        found += [
+            f"{part} of {old.tag}: {getattr(new, part)!r}"
+            for part in ("text", "tail")
+            if getattr(old, part) != getattr(new, part)
+        ]
+        names = {*old.keys(), *new.keys()} if isinstance(old.tag, str) else set()
+        found += [
+            f"@{name} of {old.tag}: {new.get(name)!r}"
+            for name in sorted(names)
+            if old.get(name) != new.get(name)
+        ]
     return found
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from lxml import etree
 
 from colladaphy.document.document import Document
+from colladaphy.document.values import bad_numbers
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report, Severity
 from colladaphy.schema import gate
@@ -114,7 +115,8 @@ def _is_archive(target: Any) -> bool:
 def document_bytes(document: Document) -> bytes:
     """The document as UTF-8, checked again as it now is."""
     tree = document.tree
-    faults = gate(tree)
+    data = etree.tostring(tree, encoding="UTF-8", xml_declaration=True)
+    faults = gate(tree) or bad_numbers(tree, data=data)
     if faults:
         raise SchemaError(faults)
-    return etree.tostring(tree, encoding="UTF-8", xml_declaration=True)
+    return data

@@ -15,6 +15,7 @@ from colladaphy.document.names import c
 from colladaphy.document.nodes import Placement
 from colladaphy.document.references import Target, follow
 from colladaphy.document.scenes import Scene, Scenes
+from colladaphy.document.values import schema_errors
 from colladaphy.errors import DocumentError
 from colladaphy.findings import Report, Rule, Severity
 
@@ -71,11 +72,15 @@ class Document:
 
     @property
     def tree(self) -> etree._ElementTree:
-        """The document as an lxml tree, with the edits made to `root`."""
+        """The document as an lxml tree, with the edits made to `root`.
+
+        Raises SchemaError where those have values that XML or the schema cannot hold.
+        """
         if self._root is not None:
             from colladaphy.document.merge import merge
 
-            merged = merge(self._tree, self._root)
+            with schema_errors(self):
+                merged = merge(self._tree, self._root)
             if merged is not self._tree:
                 self._tree = merged
                 self._index = None
@@ -84,12 +89,15 @@ class Document:
 
     @property
     def root(self) -> Collada:
-        """The document as generated dataclasses; what is edited there is written."""
+        """The document as generated dataclasses; what is edited there is written.
+
+        Raises SchemaError where a number lacks the digits of its exponent (``1e``).
+        """
         if self._root is None:
             from colladaphy_schema import Collada
             from colladaphy_schema.codec import decode
 
-            with paused_collector():
+            with schema_errors(self), paused_collector():
                 self._root = decode(self._tree.getroot(), Collada)
         return self._root
 
@@ -97,6 +105,16 @@ class Document:
     def is_as_read(self) -> bool:
         """Whether nobody can have edited `root`, so that the tree is as the schema has it."""
         return self._root is None
+
+    @property
+    def tree_as_read(self) -> etree._ElementTree:
+        """The tree without the edits made to `root`, but for those that `tree` showed already."""
+        return self._tree
+
+    @property
+    def family(self) -> list[Document]:
+        """This document and those that were opened for the references of any of them."""
+        return list(dict.fromkeys([self, *self._family.values()]))
 
     @property
     def index(self) -> Index:
@@ -121,7 +139,8 @@ class Document:
     def unit(self) -> tuple[str, float]:
         """Name and length in metres of the document's unit of length."""
         for element in self._asset("unit"):
-            return element.get("name", "meter"), float(element.get("meter", "1.0"))
+            with schema_errors(self):
+                return element.get("name", "meter"), float(element.get("meter", "1.0"))
         return "meter", 1.0
 
     @property
@@ -187,7 +206,7 @@ class Document:
         and the common profile differ: the newer of the two (thesis 6.2.1), or always
         one of them. What was skipped or assumed is added to `report`. Raises DocumentError where
         references make no sense; a document that was read with repair leaves out what they
-        concern, and reports it.
+        concern, and reports it. Raises SchemaError where a number lacks the digits of its exponent.
         """
         from colladaphy.mapper import load
 
@@ -195,7 +214,8 @@ class Document:
         if scenes is not None:
             known = self.scenes
             chosen = [known[scene] if isinstance(scene, str) else scene for scene in scenes]
-        return load(self, world, scenes=chosen, prefer=prefer, si=si, up_axis=up_axis)
+        with schema_errors(self):
+            return load(self, world, scenes=chosen, prefer=prefer, si=si, up_axis=up_axis)
 
     def write(self, target: Any) -> None:
         """Write the document, checked and atomically, to a .dae, a .zae or a binary file object."""

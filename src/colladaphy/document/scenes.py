@@ -13,6 +13,7 @@ from lxml import etree
 
 from colladaphy.document import rules
 from colladaphy.document.names import c
+from colladaphy.document.values import schema_errors
 from colladaphy.errors import DocumentError
 
 if TYPE_CHECKING:
@@ -56,7 +57,8 @@ class Model:
         """Load only this model, into `world` where one is given; options as Document.load."""
         from colladaphy.mapper import load
 
-        return load(self.scene.document, world, models=[self], **options)
+        with schema_errors(self.scene.document):
+            return load(self.scene.document, world, models=[self], **options)
 
     def __repr__(self) -> str:
         return f"<Model {self.id!r} of scene {self.scene.id!r}>"
@@ -132,7 +134,8 @@ class Scene:
         """Load this scene, into `world` where one is given; options as Document.load."""
         from colladaphy.mapper import load
 
-        return load(self.document, world, scenes=[self], **options)
+        with schema_errors(self.document):
+            return load(self.document, world, scenes=[self], **options)
 
     def __repr__(self) -> str:
         return f"<Scene {self.id!r}>"

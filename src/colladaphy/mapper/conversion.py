@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.document.poses import Quaternion
+from colladaphy.errors import DocumentError
+from colladaphy.mapper import rules
 from colladaphy.world import rotations
 from colladaphy.world.kinds import Kind
 from colladaphy.world.materials import VALUES, Materials
@@ -67,7 +69,16 @@ def conversion(
 
 
 def convert(world: World, change: Conversion) -> None:
-    """Change everything in a World."""
+    """Change everything in a World; DocumentError where numbers get too large for that."""
+    try:
+        with np.errstate(all="ignore", over="raise"):
+            _convert(world, change)
+    except ArithmeticError as error:
+        message = f"The conversion from one unit of length to another fails: {error}."
+        raise DocumentError(rules.CONVERSION.at(message=message)) from error
+
+
+def _convert(world: World, change: Conversion) -> None:
     from colladaphy.world import Mesh
 
     scale, turn = change.scale, np.array(change.turn)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -23,7 +24,7 @@ def triangulate(group: etree._Element, name: str, points: Array) -> Array:
         stride = max(stride, place + 1)
         if given.get("semantic") == "VERTEX":
             offset = place
-    lists = [_indices(p)[offset::stride] for p in group.iter(c("p"))]
+    lists = [_indices(p)[offset::stride] for p in _lists(group)]
     if name == "triangles":
         return _joined([corners[: len(corners) // 3 * 3].reshape(-1, 3) for corners in lists])
     if name == "polylist":
@@ -39,6 +40,12 @@ def triangulate(group: etree._Element, name: str, points: Array) -> Array:
     elif name == "trifans":
         return _joined([_fan(corners) for corners in lists])
     return _joined([_polygon(corners, points) for corners in lists])
+
+
+def _lists(group: etree._Element) -> Iterator[etree._Element]:
+    """Every <p>, also of polygons with holes; not what an <extra> may hold by that name."""
+    for child in group.iterchildren(c("p"), c("ph")):
+        yield from child.iterchildren(c("p")) if child.tag == c("ph") else (child,)
 
 
 def _indices(element: etree._Element) -> Array:

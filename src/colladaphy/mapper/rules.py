@@ -44,6 +44,12 @@ BAD_VALUE = Rule(
     "A body has a value that a World cannot hold, and is skipped.",
     "Masses are not negative, poses and velocities are finite numbers.",
 )
+CONVERSION = Rule(
+    "load-conversion",
+    _ERROR,
+    "Lengths cannot be converted to the unit that is asked for.",
+    "Correct the document's <unit>, or load in the document's own unit.",
+)
 BODY_TWICE = Rule(
     "load-body-twice",
     _ERROR,
@@ -135,6 +141,7 @@ RULES = (
     EMPTY_SHAPE,
     NO_GEOMETRY,
     BAD_VALUE,
+    CONVERSION,
     BODY_TWICE,
     CONSTRAINT_SKIPPED,
     CONSTRAINT_FAULTY,
