@@ -74,6 +74,14 @@ def test_a_target_that_is_there_stays(written: str) -> None:
     assert findings == []
 
 
+def test_other_references_to_an_added_node_find_it_and_those_of_other_kinds_do_not() -> None:
+    nodes = '<node id="n1"><instance_geometry url="Cube"/><instance_node url="Cube"/></node>'
+    root, findings = mended(physics(BOX, nodes=nodes, instances=instance("#Cube")))
+    assert next(root.iter(C + "instance_node")).get("url") == "#Cube"
+    assert next(root.iter(C + "instance_geometry")).get("url") == "Cube"
+    assert codes(findings) == {"repair-dangling-target", "repair-url-hash"}
+
+
 @pytest.mark.parametrize(
     ("parent", "stays"), [("#pm", False), ("#nowhere", False), ("#n1", True), ("x.dae#n", True)]
 )

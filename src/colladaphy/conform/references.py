@@ -10,6 +10,7 @@ from colladaphy.conform import rules
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.lexical import name_from
 from colladaphy.conform.structure import typed_elements
+from colladaphy.schema_references import EXPECTED
 
 __all__ = ["complete_instances", "mend_attachments", "mend_instances", "mend_urls"]
 
@@ -78,6 +79,9 @@ def _hash(context: Context, element: etree._Element, key: str) -> None:
     value = element.get(key, "")
     if not value or value.startswith("#") or value not in context.ids:
         return
+    kinds = EXPECTED.get((local(element), key))
+    if kinds is not None and local(context.ids[value]) not in kinds:
+        return  # no reference of this kind can mean that id
     if context.wants(rules.HASH):
         element.set(key, f"#{value}")
         message = f"{key}={value!r} of <{local(element)}> is an id; is now '#{value}'"

@@ -10,6 +10,7 @@ from lxml import etree
 from colladaphy.conform import rules
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.lexical import name_from
+from colladaphy.conform.references import mend_urls
 
 __all__ = ["mend_inputs", "mend_parents", "mend_targets"]
 
@@ -80,6 +81,8 @@ def mend_targets(context: Context) -> None:
         user.set("target", url)
         message = f"there is no node {target}; {why}"
         context.note(rules.DANGLING_TARGET, user, message)
+    if made:
+        mend_urls(context)  # what had no '#' may mean one of the new nodes
 
 
 def _assume(
