@@ -166,3 +166,16 @@ def test_the_whole_schema_comes_back_from_1_4() -> None:
     for text in list(covering_documents())[::15]:
         there, _ = to_collada_1_4(etree.ElementTree(etree.fromstring(text)))
         mended(there)
+
+
+def test_a_stated_type_within_a_profile_that_is_set_aside_does_not_count() -> None:
+    xsi = "http://www.w3.org/2001/XMLSchema-instance"
+    effect = (
+        f'<effect id="e"><profile_GLSL><technique sid="t"><pass xmlns:xsi="{xsi}" '
+        'xsi:type="translate_type"><program/></pass></technique></profile_GLSL></effect>'
+    )
+    root, findings = mended(
+        document(f"<library_effects>{effect}</library_effects>", version="1.4.1")
+    )
+    assert "translate_type" in kept(root)
+    assert "repair-unknown-attribute" in codes(findings)

@@ -301,8 +301,10 @@ def drop_foreign_types(context: Context) -> None:
     if not stating or not gate(context.root.getroottree()):
         return
     for element in dict.fromkeys(stating):
-        technique = next(element.iterancestors(NS + "technique"))
-        if not context.wants(rules.UNKNOWN_ATTRIBUTE) or technique.get("profile") is None:
+        # An effect's own techniques have no profile, but may be kept in one that has.
+        above = element.iterancestors(NS + "technique")
+        technique = next((found for found in above if found.get("profile") is not None), None)
+        if technique is None or not context.wants(rules.UNKNOWN_ATTRIBUTE):
             continue
         value = str(element.attrib.pop(name))
         message = f"xsi:type={_short(value)} of <{local(element)}> names no type of the schema"
