@@ -41,19 +41,30 @@ def primitive_solid(name: str, values: Mapping[str, Sequence[float]]) -> Solid |
 
 
 def mesh_solid(points: Floats, triangles: Integers) -> Solid | None:
-    """The solid that a closed surface encloses (divergence theorem); None where it has none."""
-    if not len(triangles):
+    """The solid that a closed surface encloses (divergence theorem).
+
+    None where it has none, or where no number is great or small enough for its volume.
+    """
+    if not len(triangles) or not np.all(np.isfinite(points)):
         return None
-    # About the middle of the points, so that far away meshes keep their digits.
-    middle = points.mean(axis=0)
-    a, b, c = np.moveaxis((points - middle)[triangles], 1, 0)
+    # In a cube about the origin, so that far away meshes keep their digits and huge or tiny ones
+    # do not leave the range of numbers.
+    halves = points / 2
+    middle = halves.min(axis=0) / 2 + halves.max(axis=0) / 2
+    size = float(np.abs(halves - middle).max())
+    if not size > 0.0:
+        return None
+    inner = (halves - middle) / size
+    a, b, c = np.moveaxis(inner[triangles], 1, 0)
     parts = np.einsum("ij,ij->i", a, np.cross(b, c)) / 6.0
-    volume = float(parts.sum())
-    extent = float(np.prod(np.ptp(points, axis=0)))
-    if not abs(volume) > 1e-9 * extent:
+    share = float(parts.sum())
+    if not abs(share) > 1e-9 * float(np.prod(np.ptp(inner, axis=0))):
         return None
-    center = (parts[:, None] * (a + b + c) / 4.0).sum(axis=0) / volume
-    return Solid(abs(volume), center + middle)
+    center = (parts[:, None] * (a + b + c) / 4.0).sum(axis=0) / share
+    volume = abs(share) * (2 * size) * (2 * size) * (2 * size)
+    if not 0.0 < volume < math.inf:
+        return None
+    return Solid(volume, 2 * (center * size + middle))
 
 
 def cylinder_mesh(height: float, radii: Sequence[float]) -> tuple[Floats, Integers]:
