@@ -40,7 +40,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
     """Run a command; every error becomes a message and an exit code, never a traceback."""
     try:
         result = group.main(arguments, prog_name="colladaphy", standalone_mode=False)
-        sys.stdout.flush()
+        if sys.stdout is not None:  # it may be closed
+            sys.stdout.flush()
     except click.ClickException as error:
         error.show()
         return error.exit_code
@@ -56,6 +57,9 @@ def run(arguments: Sequence[str] | None = None) -> int:
         else:
             note(f"error: {error}")
         return EXIT_IO if isinstance(error, InputError | OutputError) else EXIT_FINDINGS
+    except OSError as error:
+        note(f"error: Something could not be read or written: {error.strerror or error}.")
+        return EXIT_IO
     except MemoryError:
         note("error: There is not enough memory for this.")
         return EXIT_IO

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 import click
 
 from colladaphy.cli.console import note_changes
-from colladaphy.cli.files import convention_option, limits_option, source_of, target_of
+from colladaphy.cli.files import convention_option, limits_option, refuse_same, source_of, target_of
 from colladaphy.cli.reporting import write_report
 
 if TYPE_CHECKING:
@@ -46,6 +46,9 @@ def command(
     """
     from colladaphy.validation.mending import mend
 
+    if report_file is not None:
+        inputs = () if source == "-" else (source,)
+        refuse_same("--report", report_file, (*inputs, target))
     mended = mend(source_of(source), convention=convention, limits=limits)
     report = mended.report
     data = None

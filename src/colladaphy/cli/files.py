@@ -3,27 +3,55 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO, TypeVar
 
 import click
 
+from colladaphy.errors import InputError, OutputError
+
 if TYPE_CHECKING:
     from colladaphy.source.limits import Limits
 
-__all__ = ["convention_option", "format_option", "limits_option", "source_of", "target_of"]
+__all__ = [
+    "convention_option",
+    "format_option",
+    "limits_option",
+    "refuse_same",
+    "source_of",
+    "target_of",
+]
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def source_of(name: str) -> str | BinaryIO:
-    """What a file argument reads from."""
-    return sys.stdin.buffer if name == "-" else name
+    """What a file argument reads from; InputError where that is a closed standard input."""
+    if name != "-":
+        return name
+    if sys.stdin is None:
+        from colladaphy.source import rules
+
+        raise InputError(rules.UNREADABLE.at(message="Standard input is closed."))
+    return sys.stdin.buffer
 
 
 def target_of(name: str) -> str | BinaryIO:
-    """What a file argument writes to."""
-    return sys.stdout.buffer if name == "-" else name
+    """What a file argument writes to; OutputError where that is a closed standard output."""
+    if name != "-":
+        return name
+    if sys.stdout is None:
+        from colladaphy.source import rules
+
+        raise OutputError(rules.OUTPUT_FAILED.at(message="Standard output is closed."))
+    return sys.stdout.buffer
+
+
+def refuse_same(option: str, name: str, others: Iterable[str]) -> None:
+    """Refuse an output that would replace another file of the same command."""
+    if any(name == other or Path(name).resolve() == Path(other).resolve() for other in others):
+        raise click.BadParameter(f"{name!r} is another file of this command.", param_hint=option)
 
 
 def format_option(function: _Function) -> _Function:
@@ -46,9 +74,21 @@ def convention_option(function: _Function) -> _Function:
         default="auto",
         show_default=True,
         metavar="NAME",
+        callback=_convention,
         help="Whose reading of the standard the document follows; 'none' takes the standard's.",
     )
     return option(function)
+
+
+def _convention(_: click.Context, __: click.Parameter, value: str) -> str:
+    if value in ("auto", "none"):
+        return value
+    from colladaphy.conform.conventions import CONVENTIONS
+
+    names = [known.name for known in CONVENTIONS]
+    if value not in names:
+        raise click.BadParameter(f"{value!r} is not one of {', '.join(['auto', 'none', *names])}.")
+    return value
 
 
 def limits_option(function: _Function) -> _Function:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from os import PathLike, fspath
+from os.path import realpath
 
 from lxml import etree
 
@@ -27,13 +28,21 @@ class Mended:
     def save(self, target: Target, data: bytes | None = None) -> None:
         """Write the document atomically, or `data` in its stead.
 
-        An archive's other files are kept where the target's name ends in .zae.
+        An archive's other files are kept where the target's name ends in .zae, and where the
+        target is that archive itself, whatever its name.
         """
         if data is None:
             data = serialise(self.tree)
-        if isinstance(target, str | PathLike) and fspath(target).lower().endswith(".zae"):
-            data = self._packed(data)
+        if isinstance(target, str | PathLike):
+            name = fspath(target)
+            if name.lower().endswith(".zae") or self._is_archive_at(name):
+                data = self._packed(data)
         save(data, target)
+
+    def _is_archive_at(self, name: str) -> bool:
+        """Whether the document came out of an archive of this name."""
+        file = None if self.parsed.archive is None else self.parsed.archive.file
+        return file is not None and realpath(file) == realpath(name)
 
     def _packed(self, data: bytes) -> bytes:
         archive, member = self.parsed.archive, self.parsed.member
