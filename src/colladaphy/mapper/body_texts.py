@@ -101,6 +101,7 @@ class ShapeTexts:
                 # Not where the volume is too small or too large to say the mass by it.
                 usable = np.abs(densities * volumes - masses) <= 1e-12 * masses
             usable &= np.isfinite(densities) & (volumes > 0)
+            usable &= (kinds != Kind.BOX) | halves_are_exact(self._columns["dimensions"])
             for row, density in zip(
                 np.flatnonzero(usable).tolist(), column_texts(densities[usable]), strict=True
             ):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,7 @@ __all__ = ["Geometries"]
 
 Array = NDArray[Any]
 
+_OUR_ID = re.compile(r"Mesh(\d{1,18})\Z")
 _POLYGONS = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 
 
@@ -67,7 +69,13 @@ class Geometries:
             )
         if not len(faces):
             raise ShapeError(f"The geometry {geometry.get('id')!r} has no faces.")
-        return self._world.add_mesh(vertices, faces, convex=convex)
+        return self._world.add_mesh(vertices, faces, convex=convex, id=self._wanted_id(geometry))
+
+    def _wanted_id(self, geometry: etree._Element) -> int | None:
+        """The id that a mesh had in the World that was stored, if it is free."""
+        ours = _OUR_ID.match(geometry.get("id", ""))
+        id = None if ours is None else int(ours.group(1))
+        return None if id in self._world.meshes else id
 
     def _surface(
         self, document: Document, geometry: etree._Element, path: list[etree._Element]

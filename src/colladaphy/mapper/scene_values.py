@@ -7,7 +7,6 @@ Global values are on the level of the scene, of which COLLADA allows several and
 from __future__ import annotations
 
 import base64
-import binascii
 import hashlib
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -109,7 +108,7 @@ def _apply_profile(world: World, scene: Scene, kept: etree._Element, prefer: Pre
 def _checked(element: etree._Element) -> bytes | None:
     try:
         data = base64.b64decode("".join((element.text or "").split()), validate=True)
-    except binascii.Error:
+    except ValueError:  # not Base64, or not even ASCII
         return None
     return data if hashlib.sha256(data).hexdigest() == element.get("sha256", "").lower() else None
 
