@@ -183,7 +183,7 @@ def mass_and_inertia(
 
 def _sized_kinds(kinds: Array) -> list[Kind]:
     """The kinds with dimensions that there are."""
-    return [kind for kind in map(Kind, np.flatnonzero(np.bincount(kinds))) if kind in NEEDED]
+    return [kind for kind in map(Kind, np.flatnonzero(np.bincount(kinds)).tolist()) if kind in NEEDED]
 
 
 def _densities(ids: Array, materials: Materials) -> Array:
