@@ -129,7 +129,60 @@ def test_other_files_of_an_archive_are_kept(tmp_path: Path) -> None:
     assert again.archive.root() == "in/scene.dae"
 
 
+def test_an_archive_of_any_name_stays_one(tmp_path: Path) -> None:
+    from colladaphy.source import pack
+
+    path = tmp_path / "archive.dae"
+    path.write_bytes(pack(simple(), others={"picture.png": b"pixels"}))
+    document = colladaphy.read(path)
+    document.write(tmp_path / "plain.dae")
+    assert colladaphy.read(tmp_path / "plain.dae").archive is None
+    document.write(path)
+    again = colladaphy.read(path)
+    assert again.archive is not None and again.archive.read("picture.png") == b"pixels"
+    with open(tmp_path / "stream.zae", "wb") as stream:
+        document.write(stream)
+    again = colladaphy.read(tmp_path / "stream.zae")
+    assert again.archive is not None and again.archive.read("picture.png") == b"pixels"
+
+
+def test_archives_can_be_written_often(tmp_path: Path) -> None:
+    from colladaphy.source import pack
+
+    others = {"noise.bin": bytes(range(256)) * 16}
+    (tmp_path / "a.zae").write_bytes(pack(simple(), others=others))
+    limits = colladaphy.Limits(total=3 * 4096)
+    document = colladaphy.read(tmp_path / "a.zae", limits=limits)
+    for _ in range(5):
+        document.write(tmp_path / "b.zae")
+
+
+def test_another_document_of_an_archive_keeps_its_name(tmp_path: Path) -> None:
+    from colladaphy.source import pack
+
+    root = simple().replace(b'url="#m"', b'url="b.dae#m"')
+    (tmp_path / "a.zae").write_bytes(pack(root, name="a.dae", others={"b.dae": simple()}))
+    document = colladaphy.read(tmp_path / "a.zae")
+    related = document.resolve("b.dae#m", document.tree.getroot()).document
+    related.root.asset.title = "related"
+    related.write(tmp_path / "b.zae")
+    again = colladaphy.read(tmp_path / "b.zae")
+    assert again.member == "b.dae" and again.root.asset.title == "related"
+    assert again.archive is not None and again.archive.read("a.dae") == root
+
+
 def test_findings_are_logged_too(caplog: pytest.LogCaptureFixture) -> None:
     document = colladaphy.read(simple("<shape><sphere><radius>0</radius></sphere></shape>"))
     document.load()
     assert "load-empty-shape" in caplog.text
+
+
+def test_nothing_is_printed_without_a_handler() -> None:
+    import subprocess
+    import sys
+
+    data = simple("<shape><sphere><radius>0</radius></sphere></shape>")
+    script = f"import colladaphy; colladaphy.read({data!r}).load()"
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, check=True)
+    assert done.stderr == b""
+    assert done.stdout == b""

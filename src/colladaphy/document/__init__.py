@@ -1,9 +1,14 @@
 """Documents: reading and writing them, and following their references."""
 
+import logging
+
 from colladaphy.document.api import read, write
 from colladaphy.document.document import Document, Prefer
 from colladaphy.document.references import Target
 from colladaphy.document.scenes import Model, Models, Scene, Scenes
+
+# Who wants the log configures it; without that nothing is printed.
+logging.getLogger("colladaphy").addHandler(logging.NullHandler())
 
 __all__ = [
     "Document",
