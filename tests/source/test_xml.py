@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import bz2
+import gzip
+import lzma
+from collections.abc import Callable
+
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
@@ -197,3 +202,9 @@ def test_every_truncation_is_an_error(cut: int) -> None:
     with pytest.raises(XmlError) as caught:
         parse(_VALID[:cut])
     assert caught.value.findings[0].code in {"xml-truncated", "xml-malformed"}
+
+
+@pytest.mark.parametrize("pack", [gzip.compress, bz2.compress, lzma.compress])
+def test_a_compressed_file_is_called_so(pack: Callable[[bytes], bytes]) -> None:
+    with pytest.raises(XmlError, match="compressed with"):
+        parse(pack(OPEN + CLOSE))

@@ -19,6 +19,7 @@ COLLADA_1_5 = "http://www.collada.org/2008/03/COLLADASchema"
 _ANY_COLLADA = "http://www.collada.org/"
 _UTF16 = (b"\xff\xfe", b"\xfe\xff")
 _PLAIN_ENCODINGS = {"utf-8", "us-ascii", "ascii"}
+_COMPRESSED = ((b"\x1f\x8b", "gzip"), (b"BZh", "bzip2"), (b"\xfd7zXZ", "xz"), (b"7z\xbc", "7-Zip"))
 
 # libxml2's error codes (xmlParserErrors).
 _DOCUMENT_EMPTY = 4
@@ -78,11 +79,12 @@ def _check_head(data: bytes, file: str | None, limits: Limits) -> None:
         raise XmlError(rules.HTML.at(file=file, line=1))
     if not start.startswith("<"):
         seen = head.lstrip("\ufeff \t\r\n")[:24].split("\n")[0]
-        raise XmlError(
-            rules.NOT_XML.at(
-                message=f"The file is not XML: it begins with {seen!r}.", file=file, line=1
-            )
-        )
+        message, hint = f"The file is not XML: it begins with {seen!r}.", None
+        for magic, program in _COMPRESSED:
+            if data.startswith(magic):
+                message = f"The file is not XML: it is compressed with {program}."
+                hint = "Unpack it first; of archives only .zae (zip) is read."
+        raise XmlError(rules.NOT_XML.at(message=message, file=file, line=1, hint=hint))
     doctype = _doctype(head)
     if doctype is not None:
         if re.match(r"<!doctype\s+html", head[doctype : doctype + 64], re.IGNORECASE):
