@@ -140,7 +140,7 @@ def test_an_archive_of_any_name_stays_one(tmp_path: Path) -> None:
     document.write(path)
     again = colladaphy.read(path)
     assert again.archive is not None and again.archive.read("picture.png") == b"pixels"
-    with open(tmp_path / "stream.zae", "wb") as stream:
+    with (tmp_path / "stream.zae").open("wb") as stream:
         document.write(stream)
     again = colladaphy.read(tmp_path / "stream.zae")
     assert again.archive is not None and again.archive.read("picture.png") == b"pixels"

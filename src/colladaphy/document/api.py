@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import logging
-from os import PathLike, fspath
-from typing import TYPE_CHECKING, Any, BinaryIO
+from os import PathLike
+from typing import TYPE_CHECKING, BinaryIO
 
 from lxml import etree
 
@@ -13,7 +13,7 @@ from colladaphy.document.values import bad_numbers
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report, Severity
 from colladaphy.schema import gate
-from colladaphy.source import Archive, Limits, Parsed, Source, pack, parse, save
+from colladaphy.source import Limits, Parsed, Source, packed_for, parse, save
 
 if TYPE_CHECKING:
     from colladaphy.mapper import WriteOptions
@@ -55,7 +55,7 @@ def document_of(
 
         tree, changes = conform(tree, file=parsed.file, convention=convention)
         report.extend(changes)
-    faults = gate(tree)
+    faults = gate(tree, fresh=not repair)
     report.extend(faults)
     _log.info("read %s with %d findings", parsed.file or "a document", len(report))
     if any(fault.severity is Severity.ERROR for fault in faults):
@@ -73,6 +73,7 @@ def document_of(
         family=family,
         tolerant=repair,
         archive=parsed.archive,
+        member=parsed.member,
     )
 
 
@@ -82,34 +83,17 @@ def write(
     """Write a World or a Document to a .dae or .zae file, or to a binary file object.
 
     Nothing is written that is not schema-valid COLLADA 1.5, and a file is replaced as a whole or
-    not at all. Raises SchemaError or OutputError.
+    not at all. A document that came from an archive keeps the other files of it. Raises SchemaError
+    or OutputError.
     """
     if isinstance(content, Document):
-        data = document_bytes(content)
+        data = packed_for(target, document_bytes(content), content.archive, content.member)
     else:
         from colladaphy.mapper import store
 
-        data = store(content, options)
-    if _is_archive(target):
-        archive = content.archive if isinstance(content, Document) else None
-        data = pack(data) if archive is None else _repacked(data, archive)
+        data = packed_for(target, store(content, options))
     save(data, target)
     _log.info("wrote %d bytes to %s", len(data), target)
-
-
-def _repacked(data: bytes, archive: Archive) -> bytes:
-    """An archive with another document in it, and everything else as it was."""
-    name = archive.root()
-    others = {
-        other: archive.read(other) for other in archive.names if other not in (name, "manifest.xml")
-    }
-    return pack(data, name=name, others=others)
-
-
-def _is_archive(target: Any) -> bool:
-    if hasattr(target, "write"):
-        target = getattr(target, "name", "")
-    return isinstance(target, str | PathLike) and fspath(target).lower().endswith(".zae")
 
 
 def document_bytes(document: Document) -> bytes:

@@ -55,6 +55,7 @@ class Document:
         family: dict[str, Document] | None = None,
         tolerant: bool = False,
         archive: Archive | None = None,
+        member: str | None = None,
     ) -> None:
         self._tree = tree
         self._root: Collada | None = None
@@ -64,6 +65,8 @@ class Document:
         self._family: dict[str, Document] = {} if family is None else family
         self.archive = archive
         """The archive that the document comes from, whose other files are kept on writing one."""
+        self.member = member
+        """The name of the document in its archive."""
         self.file = file
         self.tolerant = tolerant
         """Whether references that lead nowhere are only reported, not refused."""

@@ -6,6 +6,7 @@ root; `save` puts bytes in a file's place. Nothing is ever fetched, expanded, or
 
 from colladaphy.source.archive import Archive, pack
 from colladaphy.source.limits import Limits
+from colladaphy.source.packing import packed_for
 from colladaphy.source.reading import Loaded, Parsed, Source, load, parse, parse_loaded
 from colladaphy.source.references import Resource
 from colladaphy.source.saving import Target, save
@@ -23,6 +24,7 @@ __all__ = [
     "Target",
     "load",
     "pack",
+    "packed_for",
     "parse",
     "parse_loaded",
     "save",

@@ -6,7 +6,7 @@ import io
 import stat
 import zipfile
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from posixpath import normpath
 from urllib.parse import unquote
 
@@ -17,11 +17,11 @@ from colladaphy.findings import Finding
 from colladaphy.source import rules
 from colladaphy.source.limits import Limits
 
-__all__ = ["MAGIC", "Archive", "pack"]
+__all__ = ["MAGIC", "MANIFEST", "Archive", "pack"]
 
 MAGIC = b"PK\x03\x04"
 _CENTRAL_ENTRY = b"PK\x01\x02"
-_MANIFEST = "manifest.xml"
+MANIFEST = "manifest.xml"
 _NESTED = (".zae", ".zip", ".kmz", ".usdz")
 _CHUNK = 1 << 20
 # A ratio says nothing about a few bytes.
@@ -81,10 +81,21 @@ class Archive:
             raise InputError(self._unsafe(f"{name} is an archive in the archive"))
         return data
 
+    def read_all(self, names: Iterable[str]) -> dict[str, bytes]:
+        """Several entries by name, for an archive that is written again.
+
+        The total is counted anew, so that a document can be written any number of times.
+        """
+        before, self._total = self._total, 0
+        try:
+            return {name: self.read(name) for name in names}
+        finally:
+            self._total = before
+
     def root(self) -> str:
         """The name of the entry that is the document (manifest.xml, or the only .dae)."""
-        if _MANIFEST in self._entries:
-            url = self._dae_root(self.read(_MANIFEST))
+        if MANIFEST in self._entries:
+            url = self._dae_root(self.read(MANIFEST))
             name = normpath(unquote(url.partition("#")[0]).replace("\\", "/"))
             if name not in self._entries:
                 message = f"manifest.xml names {url!r} as the document; it is not in the archive."
@@ -167,7 +178,7 @@ def pack(
     ).encode()
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
-        entries = {_MANIFEST: manifest, name: document}
+        entries = {MANIFEST: manifest, name: document}
         for other, data in sorted((others or {}).items()):
             if other in entries:
                 raise ValueError(f"{other!r} would be in the archive twice")

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
-from os import PathLike, fspath
-from os.path import realpath
 
 from lxml import etree
 
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report
 from colladaphy.schema import gate
-from colladaphy.source import Limits, Parsed, Source, Target, pack, parse, save
+from colladaphy.source import Limits, Parsed, Source, Target, packed_for, parse, save
 
 __all__ = ["Mended", "mend", "unified_diff"]
 
@@ -33,23 +31,7 @@ class Mended:
         """
         if data is None:
             data = serialise(self.tree)
-        if isinstance(target, str | PathLike):
-            name = fspath(target)
-            if name.lower().endswith(".zae") or self._is_archive_at(name):
-                data = self._packed(data)
-        save(data, target)
-
-    def _is_archive_at(self, name: str) -> bool:
-        """Whether the document came out of an archive of this name."""
-        file = None if self.parsed.archive is None else self.parsed.archive.file
-        return file is not None and realpath(file) == realpath(name)
-
-    def _packed(self, data: bytes) -> bytes:
-        archive, member = self.parsed.archive, self.parsed.member
-        if archive is None or member is None:
-            return pack(data)
-        kept = [name for name in archive.names if name not in (member, "manifest.xml")]
-        return pack(data, name=member, others={name: archive.read(name) for name in kept})
+        save(packed_for(target, data, self.parsed.archive, self.parsed.member), target)
 
 
 def mend(
