@@ -106,7 +106,8 @@ class Rule:
     ) -> Finding:
         """A finding of this rule; line and path are taken from `element` where it is given."""
         if element is not None:
-            line = element.sourceline if line is None else line
+            place: Any = element  # the stubs leave the type of sourceline open
+            line = place.sourceline if line is None else line
             path = element_path(element) if path is None else path
         return Finding(
             code=self.code,
