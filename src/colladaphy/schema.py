@@ -39,10 +39,11 @@ def schema_folder() -> Path:
     raise FileNotFoundError(f"the schema files of colladaphy are missing beside {here}")
 
 
-def gate(tree: _ElementTree) -> list[Finding]:
+def gate(tree: _ElementTree, *, fresh: bool = False) -> list[Finding]:
     """All deviations of a tree from the schema, in the order of the document; none: it is valid.
 
-    libxml2 stops at the first wrong child of an element, so mending a document can show more.
+    libxml2 stops at the first wrong child of an element, so mending a document can show more. A
+    `fresh` tree is as the parser made it and was never validated, which saves looking for ids.
     """
     root = tree.getroot()
     namespace = etree.QName(root).namespace
@@ -57,7 +58,9 @@ def gate(tree: _ElementTree) -> list[Finding]:
     complaints = validate_in_blocks(tree, parents, _validate) if parents else _validate(tree)
     violations = [(element, translate(code, message)) for element, code, message in complaints]
     places = _Places(root)
-    found = [*_clean(violations), *_duplicate_ids(tree), *_unknown_profile(tree)]
+    found = [*_clean(violations), *_unknown_profile(tree)]
+    if violations or not fresh:
+        found += _duplicate_ids(tree)
     found.sort(key=lambda pair: places.order(pair[0]))
     findings = [
         violation.rule.at(element, violation.message, path=places.path(element))
@@ -128,7 +131,8 @@ def _clean(violations: list[_Found]) -> list[_Found]:
 def _duplicate_ids(tree: _ElementTree) -> list[_Found]:
     """Ids that are there twice.
 
-    libxml2 remembers ids in the tree from run to run, so after edits its own answer is no use.
+    libxml2 remembers ids in the tree from run to run, so after edits its own answer is no use;
+    in a fresh tree it finds every one.
     Content of techniques is left out: what it means by `id` is its own affair.
     """
     ids = _all_ids(tree)

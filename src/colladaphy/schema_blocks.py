@@ -26,7 +26,8 @@ Validator = Callable[[etree._ElementTree], list[Complaint]]
 _Kept = dict[etree._Element, list[etree._Element]]
 
 _WIDE = 4000
-_SAMPLE = 300
+_SAMPLE = (40, 300)
+"""How many children are tried: one in a hundred, but at least and at most so many."""
 # Where bodies, instances, nodes and primitives are; deeper ones would cost every document dear.
 _LEVELS = 5
 _find_wide = etree.XPath(" | ".join("/*" * level + f"[*[{_WIDE}]]" for level in range(1, _LEVELS)))
@@ -64,7 +65,8 @@ def _children(parent: etree._Element) -> list[etree._Element]:
 def _sampled(children: list[etree._Element]) -> list[etree._Element]:
     """Some children from anywhere, so that no document can hide its errors from them."""
     last = len(children) - 1
-    chosen = {0, 1, last - 1, last, *random.sample(range(last), _SAMPLE)}
+    count = min(max(len(children) // 100, _SAMPLE[0]), _SAMPLE[1])
+    chosen = {0, 1, last - 1, last, *random.sample(range(last), count)}
     return [children[index] for index in sorted(chosen)]
 
 

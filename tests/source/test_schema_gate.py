@@ -240,3 +240,12 @@ def test_a_flood_of_errors_takes_time_in_proportion(monkeypatch: pytest.MonkeyPa
 
 def test_a_large_valid_document_is_validated_at_once() -> None:
     assert gate(parse(document(model("\n".join([body(SHAPE)] * 5000)))).tree) == []
+
+
+@pytest.mark.parametrize("blank", ["", " ", "\n\t"])
+def test_a_fresh_tree_need_not_be_searched_for_ids(blank: str) -> None:
+    content = "".join(f'<node id="{blank}n{number}{blank}"/>' for number in (1, 2, 3, 2, 2))
+    data = document(nodes(content))
+    found = gate(parse(data).tree, fresh=True)
+    assert [finding.code for finding in found].count("schema-duplicate-id") == 2
+    assert found == gate(parse(data).tree)

@@ -49,7 +49,7 @@ def store(world: World, options: WriteOptions | None = None) -> bytes:
     with paused_collector():
         data = store_text(world, options or WriteOptions()).encode()
         parser = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=True)
-        faults = gate(etree.ElementTree(etree.fromstring(data, parser)))
+        faults = gate(etree.ElementTree(etree.fromstring(data, parser)), fresh=True)
     if faults:
         raise SchemaError(faults)
     _log.info("stored %d bodies, %d joints in %d bytes", len(world.bodies), len(world.joints),

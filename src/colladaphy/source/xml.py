@@ -21,6 +21,9 @@ _UTF16 = (b"\xff\xfe", b"\xfe\xff")
 _PLAIN_ENCODINGS = {"utf-8", "us-ascii", "ascii"}
 _COMPRESSED = ((b"\x1f\x8b", "gzip"), (b"BZh", "bzip2"), (b"\xfd7zXZ", "xz"), (b"7z\xbc", "7-Zip"))
 
+_SHORTEST = len(b"<a/>")
+"""The bytes that an element takes at least."""
+
 # libxml2's error codes (xmlParserErrors).
 _DOCUMENT_EMPTY = 4
 _DOCUMENT_END = 5
@@ -92,6 +95,8 @@ def _check_head(data: bytes, file: str | None, limits: Limits) -> None:
         line = head.count("\n", 0, doctype) + 1
         column = doctype - (head.rfind("\n", 0, doctype) + 1) + 1
         raise XmlError(rules.DOCTYPE.at(file=file, line=line, column=column))
+    if len(data) <= limits.elements * _SHORTEST:
+        return
     count = data.count(b"<") - data.count(b"</")
     if data.startswith(_UTF16):
         count -= data.count(b"<\0/") if data[0] == 0xFF else data.count(b"<\0/\0")
