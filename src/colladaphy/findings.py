@@ -171,6 +171,11 @@ class Report:
     def __len__(self) -> int:
         return len(self.findings)
 
+    def __repr__(self) -> str:
+        about = f" of {self.file}" if self.file else ""
+        found = [f"{n} {kind}{'s' * (n != 1)}" for kind, n in self.counts.items() if n]
+        return f"<Report{about}: {', '.join(found) or 'no findings'}>"
+
     def __bool__(self) -> bool:
         return True
 

@@ -227,4 +227,10 @@ class Document:
         write(self, target)
 
     def __repr__(self) -> str:
-        return f"<Document {self.file or 'in memory'}>"
+        scenes = [
+            element.get("id") or "without id"
+            for library in self._tree.getroot().iterchildren(c("library_physics_scenes"))
+            for element in library.iterchildren(c("physics_scene"))
+        ]
+        found = f"physics scenes {', '.join(scenes)}" if scenes else "no physics scenes"
+        return f"<Document {self.file or 'in memory'}: {found}; {len(self.report)} findings>"

@@ -6,7 +6,7 @@ Model is a physics_model together with one instance_physics_model of it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from lxml import etree
@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     from colladaphy.world import World
 
 __all__ = ["Model", "Models", "Scene", "Scenes"]
+
+SHOWN = 10
+"""How many names a message lists."""
 
 
 class Model:
@@ -61,7 +64,8 @@ class Model:
             return load(self.scene.document, world, models=[self], **options)
 
     def __repr__(self) -> str:
-        return f"<Model {self.id!r} of scene {self.scene.id!r}>"
+        bodies = sum(1 for _ in self.element.iterchildren(c("instance_rigid_body")))
+        return f"<Model {self.id!r} of scene {self.scene.id!r}: {bodies} instanced bodies>"
 
 
 class Models:
@@ -82,6 +86,12 @@ class Models:
     def __len__(self) -> int:
         return len(self._models)
 
+    def __contains__(self, key: object) -> bool:
+        return any(key in (model, model.sid, model.id) for model in self._models)
+
+    def __repr__(self) -> str:
+        return f"<Models {_listing(model.id for model in self._models)}>"
+
     def __getitem__(self, key: str | int) -> Model:
         """The model; DocumentError where there is none of that name."""
         if isinstance(key, int):
@@ -89,7 +99,8 @@ class Models:
         for model in self._models:
             if key in (model.sid, model.id):
                 return model
-        message = f"The scene {self._scene.id!r} has no model {key!r}."
+        known = _listing(model.id for model in self._models)
+        message = f"The scene {self._scene.id!r} has no model {key!r}; it has {known}."
         raise DocumentError(rules.UNKNOWN_SCENE.at(message=message, file=self._scene.document.file))
 
 
@@ -138,7 +149,8 @@ class Scene:
             return load(self.document, world, scenes=[self], **options)
 
     def __repr__(self) -> str:
-        return f"<Scene {self.id!r}>"
+        state = "instantiated" if self.is_instantiated else "not instantiated"
+        return f"<Scene {self.id!r}: {len(self.models)} models, {state}>"
 
 
 class Scenes:
@@ -176,6 +188,9 @@ class Scenes:
     def __contains__(self, key: object) -> bool:
         return any(key in (scene, scene.id) for scene in self._scenes)
 
+    def __repr__(self) -> str:
+        return f"<Scenes {_listing(scene.id for scene in self._scenes)}>"
+
     def __getitem__(self, key: str | int) -> Scene:
         """The scene of an id, or of a place in the order; DocumentError for an unknown id."""
         if isinstance(key, int):
@@ -183,5 +198,13 @@ class Scenes:
         for scene in self._scenes:
             if scene.id == key:
                 return scene
-        message = f"The document has no physics scene {key!r}."
+        known = _listing(scene.id for scene in self._scenes)
+        message = f"The document has no physics scene {key!r}; it has {known}."
         raise DocumentError(rules.UNKNOWN_SCENE.at(message=message, file=self._document.file))
+
+
+def _listing(found: Iterable[str | None]) -> str:
+    """Names for a message; no more than a few."""
+    names = [repr(name) for name in found]
+    shown = names[:SHOWN] + ["…"] * (len(names) > SHOWN)
+    return ", ".join(shown) or "none"

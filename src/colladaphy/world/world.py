@@ -13,6 +13,9 @@ from colladaphy.world.rules import UNION_MEMBERS, refuse
 
 __all__ = ["Bodies", "World"]
 
+SHOWN = 5
+"""How many bodies the text of all bodies names."""
+
 
 class World(Attaching):
     """Rigid bodies, joints and materials after the pe engine (thesis 2).
@@ -115,7 +118,8 @@ class World(Attaching):
         return self.materials.overrides
 
     def __repr__(self) -> str:
-        return f"<World of {len(self.top)} bodies, {len(self.joints)} joints>"
+        name = f" {self.name!r}" if self.name else ""
+        return f"<World{name} of {len(self.top)} bodies, {len(self.joints)} joints>"
 
 
 class Bodies(Sequence[Body]):
@@ -138,3 +142,8 @@ class Bodies(Sequence[Body]):
     def __iter__(self) -> Iterator[Body]:
         for sid in self._world.top.column("sids").tolist():
             yield Body(self._world, sid)
+
+    def __repr__(self) -> str:
+        first = [repr(body) for body in self[:SHOWN]]
+        more = ["…"] if len(self) > SHOWN else []
+        return f"<{len(self)} bodies: {', '.join(first + more) or 'none'}>"
