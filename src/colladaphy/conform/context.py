@@ -6,7 +6,7 @@ import copy
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import cast
 
 from lxml import etree
@@ -14,7 +14,15 @@ from lxml import etree
 from colladaphy.conform.grammar import NAMESPACE, ComplexType, root_declaration, stated_type
 from colladaphy.findings import Finding, Rule
 
-__all__ = ["CONFORM", "NS", "OWN_MAP", "Context", "local", "standard_elements"]
+__all__ = [
+    "CONFORM",
+    "NS",
+    "OWN_MAP",
+    "Context",
+    "local",
+    "standard_elements",
+    "standard_elements_with",
+]
 
 NS = "{" + NAMESPACE + "}"
 CONFORM = "urn:colladaphy:conform:1"
@@ -117,7 +125,7 @@ class Context:
         """The first element of every id; made anew after `forget_ids`."""
         if self._ids is None:
             self._ids = {}
-            for element in standard_elements(self.root):
+            for element in standard_elements_with(self.root, "id"):
                 if name := element.get("id"):
                     self._ids.setdefault(name, element)
         return self._ids
@@ -145,7 +153,7 @@ class Context:
     def make(self, name: str, text: str | None = None, /, **attributes: str) -> etree._Element:
         """A new element of the standard's namespace, in the prefix the document uses."""
         element = etree.Element(NS + name, nsmap=self._map)
-        element.text = text
+        element.text = text or None
         for key, value in attributes.items():
             element.set(key, value)
         return element
@@ -218,6 +226,18 @@ def standard_elements(root: etree._Element) -> Iterator[etree._Element]:
         if local(element) == "technique" and element.get("profile") is not None:
             continue
         stack.extend(reversed(list(element.iterchildren(tag=etree.Element))))
+
+
+def standard_elements_with(root: etree._Element, attribute: str) -> list[etree._Element]:
+    """The elements of `standard_elements` that have an attribute, without a look at the others."""
+    found = _having(attribute)(root)
+    return found if isinstance(found, list) else []
+
+
+@cache
+def _having(attribute: str) -> etree.XPath:
+    inside = "ancestor::*[local-name() = 'technique'][@profile]"
+    return etree.XPath(f"//*[@{attribute}][not({inside})]")
 
 
 def _labels(parent: etree._Element) -> dict[etree._Element, str]:
