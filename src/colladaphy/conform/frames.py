@@ -180,9 +180,11 @@ def axis_angle(matrix: Matrix) -> tuple[float, float, float, float]:
         vector[k] = r[i, k] + r[k, i]
         q = (r[k, j] - r[j, k], *vector)
     w, x, y, z = (float(part) for part in q)
-    length = math.sqrt(x * x + y * y + z * z)
-    if length == 0.0:
+    size = max(abs(x), abs(y), abs(z))
+    if size == 0.0:
         return 1.0, 0.0, 0.0, 0.0
+    x, y, z = x / size, y / size, z / size  # the squares of tiny parts would lose their digits
+    length = math.hypot(x, y, z)
     sign = -1.0 if w < 0 else 1.0
-    angle = math.degrees(2 * math.atan2(length, abs(w)))
+    angle = math.degrees(2 * math.atan2(length * size, abs(w)))
     return sign * x / length, sign * y / length, sign * z / length, angle
