@@ -229,3 +229,11 @@ def test_names_on_attachments_are_kept_aside() -> None:
     assert next(root.iter(C + "attachment")).get("name") is None
     assert "left" in kept(root)
     assert codes(findings) == {"repair-unknown-attribute"}
+
+
+def test_sids_and_ids_in_foreign_content_are_its_own() -> None:
+    foreign = '<f:a xmlns:f="urn:f" sid="s" id="i"/><f:b xmlns:f="urn:f" sid="s" id="i"/>'
+    tree = document(f'<extra><technique profile="x">{foreign}</technique></extra>')
+    root, findings = mended(tree)
+    assert [e.get("sid") for e in root.iter("{urn:f}*")] == ["s", "s"]
+    assert findings == []

@@ -8,6 +8,7 @@ from lxml import etree
 from tests.conform.documents import NS_1_4, NS_1_5, codes
 
 from colladaphy.conform import conform
+from colladaphy.conform.context import standard_elements, standard_elements_with
 from colladaphy.schema import gate
 from colladaphy.testing import documents, mutants
 
@@ -25,6 +26,14 @@ def check(text: bytes) -> None:
     assert more == []
     assert etree.tostring(again) == etree.tostring(result)
     assert [str(finding) for finding in conform(tree)[1]] == [str(f) for f in findings]
+
+
+@given(mutants(size=30), st.sampled_from(["id", "sid"]))
+@settings(max_examples=20)
+def test_the_search_for_an_attribute_finds_what_a_walk_finds(text: bytes, name: str) -> None:
+    root = etree.fromstring(text)
+    walked = [element for element in standard_elements(root) if element.get(name) is not None]
+    assert standard_elements_with(root, name) == walked
 
 
 @given(documents(size=30))

@@ -231,7 +231,8 @@ def standard_elements(root: etree._Element) -> Iterator[etree._Element]:
 def standard_elements_with(root: etree._Element, attribute: str) -> list[etree._Element]:
     """The elements of `standard_elements` that have an attribute, without a look at the others."""
     found = _having(attribute)(root)
-    return found if isinstance(found, list) else []
+    assert isinstance(found, list)
+    return cast("list[etree._Element]", found)
 
 
 @cache

@@ -7,7 +7,7 @@ import re
 from lxml import etree
 
 from colladaphy.conform import rules
-from colladaphy.conform.context import NS, Context, local, standard_elements
+from colladaphy.conform.context import NS, Context, local, standard_elements, standard_elements_with
 from colladaphy.conform.lexical import name_from
 from colladaphy.schema_references import EXPECTED
 
@@ -36,10 +36,8 @@ _ARRAYS = (
 def mend_ids(context: Context) -> None:
     """Make every id an NCName that occurs once, and rewrite what refers to it."""
     taken: dict[str, list[etree._Element]] = {}
-    for element in standard_elements(context.root):
-        name = element.get("id")
-        if name is not None:
-            taken.setdefault(name, []).append(element)
+    for element in standard_elements_with(context.root, "id"):
+        taken.setdefault(element.get("id", ""), []).append(element)
     changed: dict[str, _Scope] = {}
     for name, owners in list(taken.items()):
         fresh = _mend_id(context, name, owners, taken)
@@ -192,10 +190,8 @@ def _reference(
 def mend_sids(context: Context) -> None:
     """Make every sid an NCName; empty ones go, and physics sids get a name where one is needed."""
     renamed: dict[str, str] = {}
-    for element in standard_elements(context.root):
-        sid = element.get("sid")
-        if sid is None:
-            continue
+    for element in standard_elements_with(context.root, "sid"):
+        sid = element.get("sid", "")
         if not sid.strip():
             _empty_sid(context, element)
         elif not _NCNAME.fullmatch(sid.strip()) and context.wants(rules.SID_FORM):
@@ -259,13 +255,12 @@ def _rename_sids(root: etree._Element, renamed: dict[str, str]) -> None:
 
 def _unique_sids(context: Context) -> None:
     """Siblings have different sids; where bodies shared one, the k-th instance means the k-th."""
-    for parent in standard_elements(context.root):
-        if len(parent) < 2:
-            continue
-        seen: dict[str, list[etree._Element]] = {}
-        for element in parent.iterchildren(tag=etree.Element):
-            if sid := element.get("sid"):
-                seen.setdefault(sid, []).append(element)
+    families: dict[etree._Element, dict[str, list[etree._Element]]] = {}
+    for element in standard_elements_with(context.root, "sid"):
+        family = element.getparent()
+        if family is not None and (sid := element.get("sid")):
+            families.setdefault(family, {}).setdefault(sid, []).append(element)
+    for parent, seen in families.items():
         for sid, owners in list(seen.items()):
             if len(owners) > 1 and context.wants(rules.SID_DUPLICATE):
                 names = _separate(context, sid, owners, seen)

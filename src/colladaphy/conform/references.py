@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import cast
 
 from lxml import etree
 
@@ -16,6 +17,8 @@ __all__ = ["complete_instances", "mend_attachments", "mend_instances", "mend_url
 
 _NCNAME = re.compile(r"[^\W\d][\w.\-]*")
 _URLS = ("url", "convex_hull_of", "parent", "source", "target")
+# One search each: a union is sorted, which takes longer than all the rest.
+_BARE = [etree.XPath(f"//@{name}[not(starts-with(., '#'))]", smart_strings=False) for name in _URLS]
 
 
 class _Members:
@@ -68,6 +71,8 @@ class _Index:
 
 def mend_urls(context: Context) -> None:
     """References within the document begin with '#'."""
+    if all(context.ids.keys().isdisjoint(cast("list[str]", find(context.root))) for find in _BARE):
+        return
     for element, kind in typed_elements(context.root):
         for key in _URLS:
             known = kind.attributes.get(key)

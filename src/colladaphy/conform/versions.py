@@ -48,7 +48,7 @@ def copy_as_1_5(
     """
     old = tree.getroot()
     current = etree.QName(old).namespace == NAMESPACE
-    if current and not any(_is_old(str(element.tag)) for element in old.iter(etree.Element)):
+    if current and not _other_namespaces(old):
         twin = copy_tree(tree)
         root = twin.getroot()
     else:
