@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any, Literal
 from lxml import etree
 
 from colladaphy.document import rules
-from colladaphy.document.collector import paused_collector
 from colladaphy.document.index import Index
 from colladaphy.document.names import c
 from colladaphy.document.nodes import Placement
@@ -18,8 +17,10 @@ from colladaphy.document.scenes import Scene, Scenes
 from colladaphy.document.values import schema_errors
 from colladaphy.errors import DocumentError
 from colladaphy.findings import Report, Rule, Severity
+from colladaphy_schema.codec import paused_collector
 
 if TYPE_CHECKING:
+    from colladaphy.mapper import WriteOptions
     from colladaphy.source import Archive
     from colladaphy.world import World
     from colladaphy_schema.document import Collada
@@ -219,6 +220,23 @@ class Document:
             chosen = [known[scene] if isinstance(scene, str) else scene for scene in scenes]
         with schema_errors(self):
             return load(self, world, scenes=chosen, prefer=prefer, si=si, up_axis=up_axis)
+
+    def add_scene(self, world: World, id: str, *, options: WriteOptions | None = None) -> Scene:
+        """Store a World as one more physics scene, which is instantiated; all else is kept.
+
+        `root` has to be taken anew afterwards. Raises DocumentError where the id is in use, or
+        the World's unit or up axis is not the document's.
+        """
+        from colladaphy.document.adding import with_scene
+
+        tree = self.tree
+        mine, given = (self.unit[1], self.up_axis), (world.unit_meter, world.up_axis)
+        if mine != given:
+            message = f"The World has unit and up axis {given}, the document {mine}."
+            raise DocumentError(rules.UNIT.at(message=message, file=self.file))
+        self._tree = with_scene(tree, world, id, options)
+        self._root = self._index = self._placement = None
+        return self.scenes[id]
 
     def write(self, target: Any) -> None:
         """Write the document, checked and atomically, to a .dae, a .zae or a binary file object."""

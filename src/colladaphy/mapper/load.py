@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from lxml import etree
 
 from colladaphy.document import rules as link_rules
-from colladaphy.document.collector import paused_collector
 from colladaphy.document.names import c
 from colladaphy.document.poses import IDENTITY
 from colladaphy.document.references import split_reference
@@ -26,6 +25,7 @@ from colladaphy.mapper.instances import Expansion, ModelInstance
 from colladaphy.mapper.materials import MaterialTable
 from colladaphy.mapper.plans import Plan
 from colladaphy.mapper.scene_values import apply_pairs, apply_scenes, world_profile
+from colladaphy_schema.codec import paused_collector
 
 if TYPE_CHECKING:
     from colladaphy.document import Document, Model, Prefer, Scene

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from lxml import etree
 
-from colladaphy.document.collector import paused_collector
 from colladaphy.errors import SchemaError
 from colladaphy.mapper.body_texts import (
     ShapeTexts,
@@ -32,6 +31,7 @@ from colladaphy.mapper.union_texts import UnionTexts, mass_frame
 from colladaphy.schema import gate
 from colladaphy.world.columns import BODY_FIELDS
 from colladaphy.world.kinds import Kind
+from colladaphy_schema.codec import paused_collector
 
 if TYPE_CHECKING:
     from colladaphy.world import Mesh, World
