@@ -56,6 +56,18 @@ UNKNOWN_SCENE = Rule(
     "The document has no such physics scene or model.",
     "Look at doc.scenes for the scenes that there are.",
 )
+SCENE_ID = Rule(
+    "store-scene-id",
+    _ERROR,
+    "A new scene cannot have this id.",
+    "Choose an id that begins with a letter and that no element of the document has.",
+)
+UNIT = Rule(
+    "store-unit",
+    _ERROR,
+    "A World has another unit or up axis than the document that it is to be stored in.",
+    "Load into a World of the document's unit and axes: World(unit=doc.unit, up_axis=doc.up_axis).",
+)
 
 RULES = (
     MISSING,
@@ -65,4 +77,6 @@ RULES = (
     SEVERAL_PLACES,
     NOT_RIGID,
     UNKNOWN_SCENE,
+    SCENE_ID,
+    UNIT,
 )

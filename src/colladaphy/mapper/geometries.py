@@ -24,7 +24,7 @@ __all__ = ["Geometries"]
 
 Array = NDArray[Any]
 
-_OUR_ID = re.compile(r"Mesh(\d{1,18})\Z")
+_OUR_ID = re.compile(r"(?:.*-)?Mesh(\d{1,18})\Z")
 _POLYGONS = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 
 

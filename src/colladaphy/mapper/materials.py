@@ -57,7 +57,7 @@ _LIMITS = {
     "damping_tangential": (0.0, math.inf),
 }
 _POSITIVE = ("density", "young_modulus", "stiffness")
-_OUR_ID = re.compile(r"Material(\d{1,18})\Z")
+_OUR_ID = re.compile(r"(?:.*-)?Material(\d{1,18})\Z")
 
 
 @dataclass(slots=True)
