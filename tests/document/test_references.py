@@ -117,5 +117,5 @@ def test_repr_names_the_file(tmp_path: Path) -> None:
     assert "a.dae" in repr(colladaphy.read(tmp_path / "a.dae"))
     document = colladaphy.read(DATA)
     assert "memory" in repr(document)
-    assert repr(document.scenes[0]) == "<Scene 's'>"
-    assert repr(document.scenes[0].models[0]) == "<Model 'm' of scene 's'>"
+    assert repr(document.scenes[0]).startswith("<Scene 's': ")
+    assert repr(document.scenes[0].models[0]).startswith("<Model 'm' of scene 's': ")
