@@ -111,6 +111,7 @@ _MATRIX_OF: dict[str, Callable[[Sequence[float]], Matrix]] = {
     "lookat": _lookat,
     "skew": _skew,
 }
+_COUNTS = {"translate": 3, "rotate": 4, "scale": 3, "matrix": 16, "lookat": 9, "skew": 7}
 TRANSFORMS = frozenset(_MATRIX_OF)
 
 
@@ -124,8 +125,11 @@ def is_transform(element: etree._Element) -> bool:
 
 
 def of_element(element: etree._Element) -> Matrix:
-    """The matrix of one transform element."""
-    return _MATRIX_OF[_local(element)](floats_of(element))
+    """The matrix of one transform element; ValueError where it has not the numbers for one."""
+    name, values = _local(element), floats_of(element)
+    if len(values) != _COUNTS[name]:
+        raise ValueError(f"<{name}> has {len(values)} numbers, not {_COUNTS[name]}")
+    return _MATRIX_OF[name](values)
 
 
 def transform_of(children: Iterable[etree._Element]) -> Matrix:

@@ -17,6 +17,9 @@ __all__ = ["Index"]
 
 _INSTANCE_NODE = c("instance_node")
 _VISUAL_SCENES = c("library_visual_scenes")
+_TECHNIQUE = c("technique")
+# What stands in a technique of some profile is that profile's own affair.
+_WITH_ID = etree.XPath("//*[@id][not(ancestor::*[local-name() = 'technique'][@profile])]")
 
 
 class Index:
@@ -31,10 +34,10 @@ class Index:
 
     @property
     def ids(self) -> dict[str, etree._Element]:
-        """The first element of every id, in document order."""
+        """The first element of every id, in document order; foreign content has none."""
         if self._ids is None:
             ids: dict[str, etree._Element] = {}
-            for element in _elements(self._tree.xpath("//*[@id]")):
+            for element in _elements(_WITH_ID(self._tree)):
                 ids.setdefault(element.get("id", ""), element)
             self._ids = ids
         return self._ids
@@ -44,7 +47,6 @@ class Index:
 
         What references mostly lead to stands directly in a library or in a visual scene, so that
         is looked at first (thesis 5.5), and all ids are collected only when that is not enough.
-        Only inside of techniques, where the schema lets anything pass, an id can be there again.
         """
         if self._shallow is None:
             self._shallow = {}
@@ -74,7 +76,8 @@ class Index:
                 name = element.get("sid")
                 if name is not None:
                     found.setdefault(name, element)
-                waiting.extend(element)
+                if element.tag != _TECHNIQUE or element.get("profile") is None:
+                    waiting.extend(element)
             self._scopes[scope] = found
         return found.get(sid)
 
@@ -82,8 +85,14 @@ class Index:
     def node_instances(self) -> list[etree._Element]:
         """All instance_node elements in document order."""
         if self._instances is None:
-            self._instances = list(self._tree.iter(_INSTANCE_NODE))
+            found = self._tree.iter(_INSTANCE_NODE)
+            self._instances = [instance for instance in found if not _is_foreign(instance)]
         return self._instances
+
+
+def _is_foreign(element: etree._Element) -> bool:
+    techniques = element.iterancestors(_TECHNIQUE)
+    return any(technique.get("profile") is not None for technique in techniques)
 
 
 def _elements(found: object) -> Iterator[etree._Element]:

@@ -10,13 +10,14 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from lxml import etree
 
 from colladaphy.document.names import c, local_name
 from colladaphy.errors import DocumentError
+from colladaphy.findings import Severity
 from colladaphy.mapper import rules
 from colladaphy.mapper.markup import token
 from colladaphy.mapper.profile import numbers, techniques
@@ -80,6 +81,7 @@ class MaterialTable:
         self._world = world
         self._prefer = prefer
         self._records: dict[etree._Element, MaterialRecord] = {}
+        self._missing: set[etree._Element] = set()
         self._nothing: MaterialRecord | None = None
         self._ids: dict[tuple[object, ...], int] = {}
 
@@ -92,7 +94,10 @@ class MaterialTable:
                 try:
                     target = document.resolve(element.get("url", ""), element, "physics_material")
                 except DocumentError as error:
-                    self._document.report.extend(error.findings)
+                    if element not in self._missing:  # every shape asks again
+                        self._missing.add(element)
+                        warnings = (replace(f, severity=Severity.WARNING) for f in error.findings)
+                        self._document.report.extend(warnings)
                     return None
                 material, home = target.element, target.document
             known = self._records.get(material)

@@ -114,7 +114,7 @@ def _axis_pose(steps: list[etree._Element]) -> Pose:
 
 def primitive(geometry: etree._Element) -> tuple[Kind, tuple[float, float, float, float]]:
     """Kind and dimensions of a primitive; ShapeError where one of them is not positive."""
-    values = {local_name(child.tag): numbers(child) for child in geometry}
+    values = _values(geometry)
     name = local_name(geometry.tag)
     kind: Kind
     needed: tuple[float, ...]
@@ -144,6 +144,12 @@ def primitive(geometry: etree._Element) -> tuple[Kind, tuple[float, float, float
     return kind, made
 
 
+def _values(geometry: etree._Element) -> dict[str, tuple[float, ...]]:
+    """The numbers of a primitive's elements by name; what an extra holds is not looked at."""
+    names = ((local_name(child.tag), child) for child in geometry)
+    return {name: numbers(child) for name, child in names if name and name != "extra"}
+
+
 def _radii(values: tuple[float, ...], count: int) -> tuple[float, ...]:
     """Radii of all axes where a file gives one for all."""
     return values if len(values) >= count else (values[0],) * count
@@ -161,7 +167,7 @@ def capsule_kind(
 
 def _plane(geometry: etree._Element) -> tuple[float, float, float, float]:
     """Normal and displacement: the equation's A B C and -D, or as the thesis has them."""
-    values = {local_name(child.tag): numbers(child) for child in geometry}
+    values = _values(geometry)
     stated = plane_dimensions(values)
     if stated is None:
         if "equation" not in values:
