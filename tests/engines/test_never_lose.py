@@ -115,9 +115,13 @@ def run_to(steps: int) -> Simulation:
     return simulation
 
 
-@pytest.fixture
+@contextmanager
 def small_files() -> Iterator[None]:
-    """No file may grow beyond 4 kB, as on a disk that is nearly full."""
+    """No file may grow beyond 4 kB, as on a disk that is nearly full.
+
+    Not a fixture: the limit holds for the whole process, and pytest writes to its own output
+    between a test and the end of its fixtures.
+    """
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (4096, before[1]))
@@ -128,14 +132,13 @@ def small_files() -> Iterator[None]:
         signal.signal(signal.SIGXFSZ, ignored)
 
 
-def test_files_that_may_not_grow(tmp_path: Path, request: pytest.FixtureRequest) -> None:
+def test_files_that_may_not_grow(tmp_path: Path) -> None:
     checkpoints = Checkpoints(tmp_path, keep=1)
     run = run_to(10)
     old = run.checkpoint(checkpoints)
     before = old.read_bytes()
     run.run(10)
-    request.getfixturevalue("small_files")
-    with pytest.raises(OutputError, match="too large"):
+    with small_files(), pytest.raises(OutputError, match="too large"):
         run.checkpoint(checkpoints)
     assert [path.name for path in tmp_path.iterdir()] == [old.name]
     assert old.read_bytes() == before
