@@ -33,7 +33,6 @@ def constraint(ref: str, att: str) -> str:
         ("#n1", "#n1"),
         ("n1", "#n1"),
         ("", ""),
-        ("nowhere", "nowhere"),
     ],
 )
 def test_attachments_have_one_form(written: str, standard: str) -> None:

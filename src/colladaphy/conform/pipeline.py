@@ -20,6 +20,7 @@ from colladaphy.conform import (
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import translate
 from colladaphy.conform.conventions.units import free_limits
+from colladaphy.conform.dangling import set_aside_dangling
 from colladaphy.conform.identifiers import mend_ids, mend_sids
 from colladaphy.conform.normalise import drop_foreign_types, normalise
 from colladaphy.conform.versions import copy_as_1_5, detect_version, note_version
@@ -66,6 +67,11 @@ _REFERENCES: tuple[_Step, ...] = (
     references.mend_instances,
     references.mend_attachments,
     free_limits,
+)
+# What is moved into extras can no longer be referred to.
+_MOVED = frozenset(
+    rule.code
+    for rule in (rules.UNEXPECTED_ELEMENT, rules.UNREADABLE_VALUE, rules.INCOMPLETE_ELEMENT)
 )
 # Shapes are assumed before a convention is chosen, and solids converted after: Blender's are read
 # otherwise than the standard's.
@@ -121,3 +127,8 @@ def _run(context: Context, twin: etree._ElementTree, version: str, convention: s
     translate(context, convention)
     for step in () if form_is_right else _REST:
         step(context)
+    if any(finding.code in _MOVED for finding in context.findings):
+        context.forget_ids()
+        for step in _REFERENCES:
+            step(context)
+    set_aside_dangling(context)

@@ -254,6 +254,12 @@ HASH = Rule(
     "a reference within the document did not begin with #",
     "without # a url names another file",
 )
+DANGLING_INSTANCE = Rule(
+    "repair-dangling-instance",
+    _WARNING,
+    "an instance or a constraint referred to what is not there",
+    "it is kept in an extra nearby; add what it refers to, or correct the reference",
+)
 DANGLING_SCENE = Rule(
     "repair-dangling-scene",
     _WARNING,

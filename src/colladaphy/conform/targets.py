@@ -12,7 +12,7 @@ from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.lexical import name_from
 from colladaphy.conform.references import mend_urls
 
-__all__ = ["mend_inputs", "mend_parents", "mend_targets"]
+__all__ = ["is_elsewhere", "mend_inputs", "mend_parents", "mend_targets"]
 
 _NCNAME = re.compile(r"[^\W\d][\w.\-]*")
 
@@ -47,7 +47,7 @@ def mend_parents(context: Context) -> None:
     """The parent of an instance of a physics model is a node, or there is none."""
     for instance in context.all("instance_physics_model"):
         parent = (instance.get("parent") or "").strip()
-        if not parent or _is_elsewhere(parent) or not context.wants(rules.PARENT):
+        if not parent or is_elsewhere(parent) or not context.wants(rules.PARENT):
             continue
         found = _find(context, parent, instance)
         if found is not None and local(found) == "node":
@@ -68,7 +68,7 @@ def mend_targets(context: Context) -> None:
         found = context.by_url(target) if target.startswith("#") else None
         if found is not None and local(found) == "node" and target not in made:
             continue
-        if not target or _is_elsewhere(target) or not context.wants(rules.DANGLING_TARGET):
+        if not target or is_elsewhere(target) or not context.wants(rules.DANGLING_TARGET):
             continue
         if target not in made:
             found = _find(context, target, user)
@@ -120,7 +120,7 @@ def _named(context: Context) -> dict[str, list[etree._Element]]:
     return found
 
 
-def _is_elsewhere(reference: str) -> bool:
+def is_elsewhere(reference: str) -> bool:
     """Whether a reference leads to another file, of which nothing is known here."""
     file, mark, _ = reference.partition("#")
     if mark:
