@@ -13,6 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.mapper.bulk import texts_of
+
 __all__ = [
     "DEGREE",
     "column_texts",
@@ -49,12 +51,7 @@ def column_texts(column: Array) -> list[str]:
 
 def row_texts(rows: Array) -> list[str]:
     """One text for each row of (n, m) finite numbers."""
-    if not len(rows):
-        return []
-    # A list's repr writes every number as repr() does, all in one call.
-    text = repr(rows.tolist())[2:-2].replace(", ", " ").replace("] [", "\n")
-    text += "\n"
-    return text.replace(".0 ", " ").replace(".0\n", "\n")[:-1].split("\n")
+    return texts_of(rows)
 
 
 def same_bits(first: Array, second: Array) -> Array:

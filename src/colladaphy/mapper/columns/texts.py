@@ -16,6 +16,7 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from colladaphy.document.names import COLLADA, PE
+from colladaphy.mapper.bulk import numbers_of
 
 __all__ = ["Column", "number_rows", "recognised", "record_texts", "whole_text"]
 
@@ -71,21 +72,15 @@ def number_rows(texts: Column, width: int) -> tuple[Array, Array]:
     ValueError where the numbers are not so many.
     """
     count = len(texts)
-    missing = texts.count(None)
-    if missing == count:
-        return np.zeros((count, width)), np.zeros(count, dtype=np.bool_)
-    if not missing:
-        if texts.count(texts[0]) == count:
-            return np.repeat(_parsed(texts[:1], width), count, axis=0), np.ones(count, np.bool_)
-        return _parsed(texts, width), np.ones(count, dtype=np.bool_)
-    has = np.array([text is not None for text in texts], dtype=np.bool_)
+    given = [text for text in texts if text is not None]
+    has = np.ones(count, dtype=np.bool_)
+    if not given:
+        return np.zeros((count, width)), ~has
+    if len(given) == count:
+        if given[0] == given[-1] and given.count(given[0]) == count:
+            return np.repeat(numbers_of(given[:1], width), count, axis=0), has
+        return numbers_of(given, width), has
+    has[:] = [text is not None for text in texts]
     numbers = np.zeros((count, width))
-    numbers[has] = _parsed([text for text in texts if text is not None], width)
+    numbers[has] = numbers_of(given, width)
     return numbers, has
-
-
-def _parsed(texts: Sequence[str | None], width: int) -> Array:
-    numbers = np.fromstring(" ".join(texts), sep=" ")  # type: ignore[arg-type]
-    if len(numbers) != len(texts) * width:
-        raise ValueError(f"there are {len(numbers)} numbers in {len(texts)} texts of {width}")
-    return numbers.reshape(-1, width)
