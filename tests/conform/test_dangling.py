@@ -83,3 +83,23 @@ def test_references_to_what_is_moved_away_are_noticed() -> None:
     root, findings = mended(tree)
     assert "repair-dangling-target" in codes(findings)
     assert validate(etree.tostring(root)).valid
+
+
+@pytest.mark.parametrize("reference", ["", "pm/b1"])
+def test_a_constraint_on_a_body_that_is_there_twice_is_set_aside(reference: str) -> None:
+    tree = physics(BOX, more=JOINT.format(reference), instances=2 * INSTANCE + USE)
+    root, findings = mended(tree)
+    assert codes(findings) == {"repair-ambiguous-constraint"}
+    assert "<instance_rigid_constraint" in kept(root)
+    assert len(read(etree.tostring(root)).load().bodies) == 2
+
+
+def test_other_constraints_of_that_model_stay() -> None:
+    joint = JOINT.format("").replace("pm/b1", "pm/b2")
+    bodies = "".join(
+        f'<rigid_body sid="{sid}"><technique_common>{BOX}</technique_common></rigid_body>'
+        for sid in ("b1", "b2")
+    )
+    other = INSTANCE.replace("b1", "b2")
+    tree = physics(bodies=bodies, more=joint, instances=2 * INSTANCE + other + USE)
+    assert mended(tree)[1] == []

@@ -6,6 +6,8 @@ other files stays: nothing is known here of those.
 
 from __future__ import annotations
 
+from collections import Counter
+
 from lxml import etree
 
 from colladaphy.conform import rules
@@ -13,6 +15,9 @@ from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.targets import is_elsewhere
 
 __all__ = ["set_aside_dangling"]
+
+_INSTANCE_OF_BODY = NS + "instance_rigid_body"
+_ATTACHMENTS = (NS + "ref_attachment", NS + "attachment")
 
 
 def set_aside_dangling(context: Context) -> None:
@@ -34,15 +39,40 @@ def set_aside_dangling(context: Context) -> None:
             sid = user.get(key, "").rpartition("/")[2]
             if sid not in models.sids(model, kind):
                 _set_aside(context, user, f"its model has no <{kind}> of sid {sid!r}")
+    _set_ambiguous_aside(context)
+
+
+def _set_ambiguous_aside(context: Context) -> None:
+    """A constraint between bodies of which one is there twice says not which is meant."""
+    for instance in context.all("instance_physics_model"):
+        users = list(instance.iterchildren(NS + "instance_rigid_constraint"))
+        model = context.by_url(instance.get("url")) if users else None
+        if model is None or not context.wants(rules.AMBIGUOUS_CONSTRAINT):
+            continue
+        bodies = Counter(u.get("body", "") for u in instance.iterchildren(_INSTANCE_OF_BODY))
+        twice = {f"{model.get('id')}/{sid}" for sid, count in bodies.items() if count > 1}
+        constraints = {c.get("sid"): c for c in model.iterchildren(NS + "rigid_constraint")}
+        for user in users if twice else ():
+            constraint = constraints.get(user.get("constraint"))
+            ends = () if constraint is None else constraint.iterchildren(*_ATTACHMENTS)
+            if found := twice & {end.get("rigid_body") for end in ends}:
+                message = (
+                    f"constraint {user.get('constraint')!r} holds {min(found)}, which is instanced "
+                    "more than once here; which is meant is not said; moved into an extra"
+                )
+                context.note(rules.AMBIGUOUS_CONSTRAINT, user, message)
+                context.stash(user)
 
 
 def _set_constraints_aside(context: Context, models: _Models) -> None:
     for constraint in context.all("rigid_constraint"):
-        for name in ("ref_attachment", "attachment"):
-            attachment = constraint.find(NS + name)
-            reference = "" if attachment is None else attachment.get("rigid_body", "").strip()
+        for name in _ATTACHMENTS:
+            attachment = constraint.find(name)
+            if attachment is None:
+                continue
+            reference = attachment.get("rigid_body", "").strip()
             if reference and not models.holds(reference):
-                why = f"its <{name}> refers to {reference!r}, which is no body and no node"
+                why = f"its <{local(attachment)}> refers to {reference!r}, no body and no node"
                 _set_aside(context, constraint, why)
                 break
 

@@ -260,6 +260,12 @@ DANGLING_INSTANCE = Rule(
     "an instance or a constraint referred to what is not there",
     "it is kept in an extra nearby; add what it refers to, or correct the reference",
 )
+AMBIGUOUS_CONSTRAINT = Rule(
+    "repair-ambiguous-constraint",
+    _WARNING,
+    "a constraint held a body that is instanced more than once in the same place",
+    "instance the physics model twice instead, or give each instance a body of its own",
+)
 DANGLING_SCENE = Rule(
     "repair-dangling-scene",
     _WARNING,
