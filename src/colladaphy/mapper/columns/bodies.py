@@ -24,7 +24,7 @@ _MATERIAL = r'<instance_physics_material url="(?P<{0}>[^"]*)"/>\s*'
 # One primitive, in its own place, with a mass and a material; of the pe profile nothing but the
 # user id. The end tag is left out.
 _REGULAR = re.compile(
-    r"\s*<rigid_body\s[^>]*>\s*<technique_common>\s*"
+    r'\s*<rigid_body(?: sid="(?P<sid>[^"&]*)">|\s[^>]*>)\s*<technique_common>\s*'
     r"(?:<dynamic>(?P<dynamic>[^<]+)</dynamic>\s*)?"
     r"(?:<mass>(?P<body_mass>[^<]+)</mass>\s*)?"
     rf"(?:{_MATERIAL.format('body_material')})?"
@@ -43,6 +43,7 @@ _REGULAR = re.compile(
     r'(?:<technique profile="(?P<profile>pe)">\s*<pe:body(?: uid="(?P<uid>[^"]*)")?/>\s*'
     r"</technique>\s*)?"
 )
+_OUR_SIDS = re.compile(r"Body[0-9]{1,18}(?: Body[0-9]{1,18})*+")
 _TURNED = np.array([0.0, 0.0, 1.0, -90.0])
 """The step of a capsule or cylinder that lies along x, as the World's do."""
 
@@ -52,10 +53,6 @@ class BodyTable:
 
     def __init__(self, model: etree._Element) -> None:
         self.elements = list(model.iterchildren(c("rigid_body")))
-        self._sids = [element.get("sid", "") for element in self.elements]
-        rows = range(len(self._sids))
-        self.index = dict(zip(reversed(self._sids), reversed(rows), strict=True))
-        """The first row of each sid."""
         count = len(self.elements)
         self.regular: Array = np.zeros(count, dtype=np.bool_)
         self.kinds: Array = np.zeros(count, dtype=np.int8)
@@ -71,11 +68,16 @@ class BodyTable:
         self.names: dict[int, str] = {}
         """Names by row."""
         texts = record_texts(model, "rigid_body", count)
+        self._sids: Column = (None,) * count
         if texts:
             try:
                 self._read(*recognised(_REGULAR, texts))
             except (ValueError, OverflowError):
                 self.regular[...] = False
+        self.index: dict[str, int] = {}
+        """The first row of each sid."""
+        for row, sid in enumerate(self._sids):
+            self.index.setdefault(self.elements[row].get("sid", "") if sid is None else sid, row)
 
     def _read(self, rows: Array, columns: dict[str, Column]) -> None:
         if not len(rows):
@@ -88,20 +90,35 @@ class BodyTable:
         self.fixed[rows] = ~_booleans(columns["dynamic"], default=True)
         self.hollow[rows] = _booleans(columns["hollow"], default=False)
         self.uids[rows] = [int(uid or 0) for uid in columns["uid"]]
-        for row, profile, first, second in zip(
-            rows.tolist(),
-            columns["profile"],
-            columns["body_material"],
-            columns["material"],
-            strict=True,
-        ):
-            self.materials[row] = (second if first is None else first) or ""
-            if profile is not None:
-                self.sids[row] = system_id(self._sids[row], "Body")
-            name = self.elements[row].get("name")
-            if name is not None:
-                self.names[row] = name
+        self._identify(rows.tolist(), columns)
         self.regular[rows] = good
+
+    def _identify(self, rows: list[int], columns: dict[str, Column]) -> None:
+        """Sids, names and references to materials."""
+        sids = list(columns["sid"])
+        for place, sid in enumerate(sids):
+            if sid is None:  # there are other attributes, or none
+                element = self.elements[rows[place]]
+                sids[place] = element.get("sid", "")
+                name = element.get("name")
+                if name is not None:
+                    self.names[rows[place]] = name
+        urls = [
+            (inner if outer is None else outer) or ""
+            for outer, inner in zip(columns["body_material"], columns["material"], strict=True)
+        ]
+        wanted = system_ids([sid or "" for sid in sids])
+        wanted = [
+            None if profile is None else sid
+            for profile, sid in zip(columns["profile"], wanted, strict=True)
+        ]
+        if len(rows) == len(self.elements):
+            self._sids, self.materials, self.sids = tuple(sids), urls, wanted
+            return
+        known = list(self._sids)
+        for row, sid, url, system in zip(rows, sids, urls, wanted, strict=True):
+            known[row], self.materials[row], self.sids[row] = sid, url, system
+        self._sids = tuple(known)
 
     def _geometry(self, rows: Array, columns: dict[str, Column]) -> Array:
         """Kinds and dimensions; whether the World can have them."""
@@ -139,6 +156,17 @@ class BodyTable:
             sizes = values[where][:, needed]
             good[where] &= np.all((sizes > 0.0) & (sizes < np.inf), axis=1)
         return good
+
+
+def system_ids(sids: list[str]) -> list[int | None]:
+    """The system ids that our own sids of bodies are made of."""
+    joined = " ".join(sids)
+    if _OUR_SIDS.fullmatch(joined):
+        made: list[int | None] = np.fromstring(
+            joined.replace("Body", ""), dtype=np.int64, sep=" "
+        ).tolist()
+        return made
+    return [system_id(sid, "Body") for sid in sids]
 
 
 def _booleans(texts: Column, *, default: bool) -> Array:

@@ -22,7 +22,9 @@ KEPT = ("position", "orientation", "linear_velocity", "angular_velocity", "force
 
 # Nothing but velocities, and of the pe profile nothing but the motion. The end tag is left out.
 _REGULAR = re.compile(
-    r"\s*<instance_rigid_body\s[^>]*>\s*(?:<technique_common/>|<technique_common>\s*"
+    r"\s*<instance_rigid_body"
+    r'(?: body="(?P<body>[^"&]*)" target="(?P<target>[^"&]*)">|\s[^>]*>)\s*'
+    r"(?:<technique_common/>|<technique_common>\s*"
     r"(?:<angular_velocity>(?P<angular>[^<]+)</angular_velocity>\s*)?"
     r"(?:<velocity>(?P<linear>[^<]+)</velocity>\s*)?</technique_common>)\s*"
     r'(?:<technique profile="pe">\s*<pe:motion(?: sleeping="(?P<sleeping>[^"]*)")?(?:/>|>\s*'
@@ -38,8 +40,8 @@ class MotionTable:
         self.elements = list(model.iterchildren(c("instance_rigid_body")))
         count = len(self.elements)
         self.regular: Array = np.zeros(count, dtype=np.bool_)
-        self.bodies = [element.get("body", "") for element in self.elements]
-        self.targets = [element.get("target", "") for element in self.elements]
+        self.bodies: list[str] = [""] * count
+        self.targets: list[str] = [""] * count
         self.linear: Array = np.zeros((count, 3))
         self.angular: Array = np.zeros((count, 3))
         """In radians."""
@@ -68,7 +70,18 @@ class MotionTable:
             values, has = number_rows(columns[name], self.kept[name].shape[1])
             self.kept[name][rows] = values
             self.has[name][rows] = has
-        for row, element in enumerate(self.elements):
-            stated = element.get("name")
-            if stated is not None:
-                self.names[row] = stated
+        self._identify(rows.tolist(), list(columns["body"]), list(columns["target"]))
+
+    def _identify(
+        self, rows: list[int], bodies: list[str | None], targets: list[str | None]
+    ) -> None:
+        """References and names."""
+        for place, body in enumerate(bodies):
+            if body is None:  # there are other attributes, or others first
+                element = self.elements[rows[place]]
+                bodies[place], targets[place] = element.get("body", ""), element.get("target", "")
+                name = element.get("name")
+                if name is not None:
+                    self.names[rows[place]] = name
+        for row, body, target in zip(rows, bodies, targets, strict=True):
+            self.bodies[row], self.targets[row] = body or "", target or ""
