@@ -1,26 +1,14 @@
-"""Many numbers at once are written and read as one alone, with orjson and without."""
+"""Many numbers at once are written and read as one alone."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from colladaphy.mapper import bulk
 from colladaphy.mapper.numbers import float_text
-
-
-@pytest.fixture(params=["orjson", "python"])
-def way(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
-    if request.param == "python":
-        monkeypatch.setattr(bulk, "_orjson", lambda: None)
-    else:
-        pytest.importorskip("orjson", reason="orjson is not installed")
-    yield request.param
-
 
 numbers = (
     st.floats(allow_nan=False, allow_infinity=False)
@@ -30,12 +18,12 @@ numbers = (
     | st.integers(-(10**20), 10**20).map(float)
     | st.sampled_from([0.0, -0.0, 1e-4, 9.999e-5, 1e16, 9999999999999998.0, 5e-324])
 )
-pooled = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=200)
+many = settings(max_examples=200)
 
 
-@pooled
+@many
 @given(st.integers(1, 4).flatmap(lambda m: st.lists(st.lists(numbers, min_size=m, max_size=m))))
-def test_there_and_back(way: str, rows: list[list[float]]) -> None:
+def test_there_and_back(rows: list[list[float]]) -> None:
     width = len(rows[0]) if rows else 3
     column = np.array(rows, dtype=np.float64).reshape(-1, width)
     texts = bulk.texts_of(column)
@@ -49,7 +37,7 @@ SPELLINGS = ["INF", "-INF", "NaN", "+1", ".5", "1.", "01", "1E5", "-0", "0", "-0
              "123456789012345678901234567890", "0.1", "2.5e-3"]  # fmt: skip
 
 
-@pooled
+@many
 @given(
     st.lists(
         st.tuples(
@@ -60,13 +48,13 @@ SPELLINGS = ["INF", "-INF", "NaN", "+1", ".5", "1.", "01", "1E5", "-0", "0", "-0
         )
     )
 )
-def test_every_spelling_of_xml_schema(way: str, parts: list[tuple[str, str, str, str]]) -> None:
+def test_every_spelling_of_xml_schema(parts: list[tuple[str, str, str, str]]) -> None:
     texts = ["".join(part) for part in parts]
     expected = np.array([[float(word) for word in text.split()] for text in texts])
     assert bulk.numbers_of(texts, 2).tobytes() == expected.reshape(-1, 2).tobytes()
 
 
 @pytest.mark.parametrize("text", ["1", "1 2 3", "1 x", "1e 2", "1,2", "", "[1 2]", "1 null 2"])
-def test_what_is_not_two_numbers(way: str, text: str) -> None:
+def test_what_is_not_two_numbers(text: str) -> None:
     with pytest.raises(ValueError):
         bulk.numbers_of([text], 2)

@@ -1,16 +1,15 @@
 """Many numbers as text and back at once: by far the largest part of storing and loading.
 
-With orjson installed (`pip install colladaphy[fast]`) it takes an eighth of the time; the texts
-and the numbers are the same with it and without.
+orjson takes an eighth of the time that repr() and float() take, and writes and reads the same.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
 from typing import Any
 
 import numpy as np
+import orjson
 from numpy.typing import NDArray
 
 __all__ = ["numbers_of", "texts_of"]
@@ -19,15 +18,6 @@ Array = NDArray[Any]
 
 # Between these, repr() and orjson both write numbers without an exponent.
 _SMALLEST, _LARGEST = 1e-4, 1e16
-
-
-@cache
-def _orjson() -> Any:
-    try:
-        import orjson
-    except ImportError:
-        return None
-    return orjson
 
 
 def texts_of(rows: Array) -> list[str]:
@@ -39,8 +29,6 @@ def texts_of(rows: Array) -> list[str]:
     bits = rows.view(np.int64)
     if np.array_equal(bits[0], bits[-1]) and np.all(bits == bits[0]):
         return _by_repr(rows[:1]) * count
-    if _orjson() is None:
-        return _by_repr(rows)
     size = np.abs(rows)
     plain = np.all(((size >= _SMALLEST) & (size < _LARGEST)) | (rows == 0.0), axis=1)
     if plain.all():
@@ -61,8 +49,7 @@ def _by_repr(rows: Array) -> list[str]:
 def _by_orjson(rows: Array) -> list[str]:
     if not len(rows):
         return []
-    orjson = _orjson()
-    written: bytes = orjson.dumps(rows, option=orjson.OPT_SERIALIZE_NUMPY)
+    written = orjson.dumps(rows, option=orjson.OPT_SERIALIZE_NUMPY)
     return _lines(written.decode("ascii")[2:-2].replace("],[", "\n").replace(",", " "))
 
 
@@ -78,11 +65,11 @@ def numbers_of(texts: Sequence[str], width: int) -> Array:
     """
     joined = " ".join(texts)
     values = None
-    if _orjson() is not None and "," not in joined:
+    if "," not in joined:
         # To JSON, -0 is an integer, which has no sign.
         listed = f"[{joined}]".replace(" ", ",").replace("-0,", "-0.0,").replace("-0]", "-0.0]")
         try:
-            values = np.array(_orjson().loads(listed), dtype=np.float64)
+            values = np.array(orjson.loads(listed), dtype=np.float64)
         except ValueError:
             values = None  # blanks, or a spelling that JSON does not have
     if values is None:
