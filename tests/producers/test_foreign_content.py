@@ -78,3 +78,10 @@ def test_the_tool_decides_nothing_about_paths(tmp_path: Path) -> None:
     assert "parts.dae#m" in document.tree.getroot().xpath("//@url")
     (tmp_path / "parts.dae").write_bytes(data.replace(b"parts.dae#m", b"#m"))
     assert len(colladaphy.read(path, repair=True).load().bodies) == 1
+
+
+@pytest.mark.parametrize("blank", ["", " ", "\t"])
+def test_a_blank_target_is_none(blank: str) -> None:
+    data = collada(model(body()), scene(instance(target=blank)))
+    (only,) = colladaphy.read(data).load().bodies
+    assert only.position.tolist() == [0, 0, 0]

@@ -20,6 +20,7 @@ from colladaphy.conform import (
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import translate
 from colladaphy.conform.conventions.units import free_limits
+from colladaphy.conform.cycles import break_cycles
 from colladaphy.conform.dangling import set_aside_dangling
 from colladaphy.conform.identifiers import mend_ids, mend_sids
 from colladaphy.conform.normalise import drop_foreign_types, normalise
@@ -63,6 +64,7 @@ _REFERENCES: tuple[_Step, ...] = (
     targets.mend_inputs,
     targets.mend_parents,
     targets.mend_targets,
+    break_cycles,
     references.complete_instances,
     references.mend_instances,
     references.mend_attachments,

@@ -266,6 +266,12 @@ AMBIGUOUS_CONSTRAINT = Rule(
     "a constraint held a body that is instanced more than once in the same place",
     "instance the physics model twice instead, or give each instance a body of its own",
 )
+CYCLE = Rule(
+    "repair-cycle",
+    _WARNING,
+    "a node or a physics model was instanced within itself",
+    "it is kept in an extra nearby; instance something else",
+)
 DANGLING_SCENE = Rule(
     "repair-dangling-scene",
     _WARNING,

@@ -81,7 +81,7 @@ class Expansion:
     ) -> ModelInstance | None:
         try:
             target = document.resolve(element.get("url", ""), element, "physics_model")
-            parent = element.get("parent")
+            parent = (element.get("parent") or "").strip()
             if parent:
                 node = document.resolve(parent, element, "node")
                 pose = self._document.placement.pose(node.document, node.element)
@@ -127,7 +127,7 @@ class Expansion:
         that its own transform has them already. Raises DocumentError for a broken reference.
         """
         pose = IDENTITY
-        reference = body.get("target", "")
+        reference = body.get("target", "").strip()
         node = None
         if reference:
             target = instance.document.resolve(reference, body, "node")

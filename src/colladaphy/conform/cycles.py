@@ -1,0 +1,59 @@
+"""Nodes and physics models that are instanced within themselves, directly or through others."""
+
+from __future__ import annotations
+
+from lxml import etree
+
+from colladaphy.conform import rules
+from colladaphy.conform.context import NS, Context, local
+
+__all__ = ["break_cycles"]
+
+
+def break_cycles(context: Context) -> None:
+    """Move instances that would hold what they stand in into an extra."""
+    for kind in ("node", "physics_model"):
+        for instance in _closing(context, kind) if context.wants(rules.CYCLE) else ():
+            message = (
+                f"<instance_{kind} url={instance.get('url')!r}> stands in what it refers to; "
+                "moved into an extra"
+            )
+            context.note(rules.CYCLE, instance, message)
+            context.stash(instance)
+
+
+def _closing(context: Context, kind: str) -> list[etree._Element]:
+    """The instances that close a circle, found by one walk along all of them."""
+    targets: dict[etree._Element, etree._Element] = {}
+    for instance in context.all(f"instance_{kind}"):
+        url = instance.get("url", "")
+        found = context.by_url(url) if url.startswith("#") else None
+        if found is not None and local(found) == kind:
+            targets[instance] = found
+    inside = {
+        target: [i for i in target.iterdescendants(f"{NS}instance_{kind}") if i in targets][::-1]
+        for target in targets.values()
+    }
+    closing: dict[etree._Element, None] = {}
+    done: set[etree._Element] = set()
+    for start in inside:
+        waiting = [] if start in done else [start]
+        open_ = set[etree._Element]()
+        while waiting:
+            current = waiting[-1]
+            open_.add(current)
+            while inside[current]:
+                instance = inside[current].pop()
+                target = targets[instance]
+                if target in done:
+                    continue
+                if target in open_:
+                    closing[instance] = None
+                    continue
+                waiting.append(target)
+                break
+            else:
+                waiting.pop()
+                open_.discard(current)
+                done.add(current)
+    return list(closing)
