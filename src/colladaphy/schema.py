@@ -20,7 +20,7 @@ from colladaphy.source.xml import COLLADA_1_4, COLLADA_1_5
 if TYPE_CHECKING:
     from lxml.etree import _Element, _ElementTree
 
-__all__ = ["gate", "is_valid", "schema_folder"]
+__all__ = ["gate", "is_valid", "is_valid_text", "schema_folder"]
 
 _STEP = re.compile(r"([^/\[\]]+)(?:\[(\d+)\])?")
 _LOCK = threading.Lock()
@@ -75,13 +75,31 @@ def is_valid(tree: _ElementTree) -> bool:
     It is asked while parsing: validating a tree takes time with the square of the errors, as a
     path is made for each, and leaves ids behind in the tree.
     """
-    parser = etree.XMLParser(schema=_schema(), huge_tree=True, resolve_entities=False)
+    return is_valid_text(etree.tostring(tree.getroot()))
+
+
+def is_valid_text(data: bytes) -> bool:
+    """Whether the text of a document passes libxml2's validation, which is told while parsing.
+
+    That takes half the time of a tree and the `gate`, and no memory, but says neither what is
+    wrong nor whether an id is there twice. False for text that is not well-formed, too.
+    """
+    nothing: Any = _Nothing()
+    parser = etree.XMLParser(
+        target=nothing, schema=_schema(), huge_tree=True, resolve_entities=False, no_network=True
+    )
     try:
-        with _LOCK:
-            etree.fromstring(etree.tostring(tree.getroot()), parser)
+        etree.fromstring(data, parser)
     except etree.XMLSyntaxError:
         return False
-    return True
+    return not len(parser.error_log)
+
+
+class _Nothing:
+    """A parser's target that takes no events."""
+
+    def close(self) -> None:
+        """Called at the end."""
 
 
 @cache

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from colladaphy.findings import Finding
-from colladaphy.schema import gate, schema_folder
+from colladaphy.schema import gate, is_valid_text, schema_folder
 from colladaphy.source import COLLADA_1_5, parse
 
 ASSET = (
@@ -249,3 +249,26 @@ def test_a_fresh_tree_need_not_be_searched_for_ids(blank: str) -> None:
     found = gate(parse(data).tree, fresh=True)
     assert [finding.code for finding in found].count("schema-duplicate-id") == 2
     assert found == gate(parse(data).tree)
+
+
+@pytest.mark.parametrize(
+    ("text", "valid"),
+    [
+        (nodes('<node id="a"/>'), True),
+        (nodes('<node id="a"><translate>1 2 3</translate></node>'), True),
+        (nodes('<node id="a"><translate>1 2</translate></node>'), False),
+        (nodes('<node id="a"><nonsense/></node>'), False),
+        (nodes('<node id="a">'), False),
+        (technique("<pe:body uid='1' xmlns:pe='urn:colladaphy:pe:1'/>"), True),
+        (technique("<pe:body uid='x' xmlns:pe='urn:colladaphy:pe:1'/>"), False),
+    ],
+)
+def test_validity_can_be_told_without_a_tree(text: str, valid: bool) -> None:
+    data = document(text)
+    assert is_valid_text(data) is valid
+    assert is_valid_text(data) is valid
+
+
+def test_validity_is_told_of_one_text_at_a_time() -> None:
+    assert not is_valid_text(document(nodes('<node id="a"><nonsense/></node>')))
+    assert is_valid_text(document(nodes('<node id="a"/>')))

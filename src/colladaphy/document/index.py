@@ -7,7 +7,7 @@ load superlinear (7).
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from lxml import etree
 
@@ -29,6 +29,7 @@ class Index:
         self._tree = tree
         self._ids: dict[str, etree._Element] | None = None
         self._shallow: dict[str, etree._Element] | None = None
+        self._nodes: dict[str, etree._Element] | None = None
         self._scopes: dict[etree._Element, dict[str, etree._Element]] = {}
         self._instances: list[etree._Element] | None = None
 
@@ -47,23 +48,24 @@ class Index:
 
         What references mostly lead to stands directly in a library or in a visual scene, so that
         is looked at first (thesis 5.5), and all ids are collected only when that is not enough.
+        Only inside of techniques, where the schema lets anything pass, an id can be there again.
         """
         if self._shallow is None:
-            self._shallow = {}
-            for library in self._tree.getroot().iterchildren("{*}*"):
-                if local_name(library.tag).startswith("library_"):
-                    self._add_children(library)
-                    if library.tag == _VISUAL_SCENES:
-                        for scene in library.iterchildren("{*}*"):
-                            self._add_children(scene)
-            self._shallow.pop("", None)
+            self._shallow = _children_by_id(
+                library
+                for library in self._tree.getroot().iterchildren("{*}*")
+                if local_name(library.tag).startswith("library_")
+            )
         found = self._shallow.get(name)
+        if found is None:
+            if self._nodes is None:
+                self._nodes = _children_by_id(
+                    scene
+                    for library in self._tree.getroot().iterchildren(_VISUAL_SCENES)
+                    for scene in library.iterchildren("{*}*")
+                )
+            found = self._nodes.get(name)
         return self.ids.get(name) if found is None else found
-
-    def _add_children(self, parent: etree._Element) -> None:
-        assert self._shallow is not None
-        for element in parent.iterchildren("{*}*"):
-            self._shallow.setdefault(element.get("id", ""), element)
 
     def within(self, scope: etree._Element, sid: str) -> etree._Element | None:
         """The element of a sid below `scope`: the nearest first, breadth before depth."""
@@ -93,6 +95,17 @@ class Index:
 def _is_foreign(element: etree._Element) -> bool:
     techniques = element.iterancestors(_TECHNIQUE)
     return any(technique.get("profile") is not None for technique in techniques)
+
+
+def _children_by_id(parents: Iterable[etree._Element]) -> dict[str, etree._Element]:
+    """The first child of every id."""
+    found: dict[str, etree._Element] = {}
+    for parent in parents:
+        for element in parent.iterchildren("{*}*"):
+            name = element.get("id")
+            if name is not None:
+                found.setdefault(name, element)
+    return found
 
 
 def _elements(found: object) -> Iterator[etree._Element]:
