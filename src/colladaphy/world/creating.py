@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from colladaphy.world import rotations, values
 from colladaphy.world.body import Body
 from colladaphy.world.columns import BodyColumns
-from colladaphy.world.creation import prepare
+from colladaphy.world.creation import prepare, prepare_one
 from colladaphy.world.kinds import Kind
 from colladaphy.world.materials import Material
 from colladaphy.world.meshes import Mesh
@@ -247,12 +247,9 @@ class Creating(Viewing):
             given["masses"] = values.mass(options["mass"])
         if options.get("inertia") is not None:
             given["inertias"] = values.inertia(options["inertia"])
-        columns = BodyColumns(kinds=np.array([kind], dtype=np.int8))
-        for key, value in given.items():
-            setattr(columns, key, np.asarray(value)[None])
-        filled = prepare(columns, self.materials, self.meshes)
+        filled = prepare_one(kind, given, self.materials, self.meshes)
         sid = self.claim_sid(options.get("sid"))
-        self.top.append(sid, {key: value[0] for key, value in filled.items()})
+        self.top.append(sid, filled)
         name = options.get("name")
         if name is not None:
             self.names[sid] = str(name)

@@ -26,12 +26,14 @@ from colladaphy.world.rules import (
 from colladaphy.world.shapes import COUNTS, NEEDED, solid_inertia, solid_volume
 from colladaphy.world.surfaces import hollow_moments
 
-__all__ = ["mass_and_inertia", "prepare"]
+__all__ = ["mass_and_inertia", "prepare", "prepare_one"]
 
 Array = NDArray[Any]
 
 _PLANE, _MESH = int(Kind.PLANE), int(Kind.MESH)  # numpy is slow to compare with an enumeration
 
+_NO_MASS = "Volume times density is out of the range of numbers."
+_NO_INERTIA = "The inertia of a shape is out of the range of numbers."
 _DEFAULTS: Mapping[str, float] = {"mesh_ids": -1}
 _FINITE = ("positions", "orientations", "linear_velocities", "angular_velocities", "forces",
            "torques")  # fmt: skip
@@ -139,12 +141,35 @@ def _weigh(
     if columns.masses is None:
         finite = values["kinds"] != Kind.PLANE
         if not np.all((got_masses[finite] > 0) & (got_masses[finite] < np.inf)):
-            raise refuse(MASS, "Volume times density is out of the range of numbers.")
+            raise refuse(MASS, _NO_MASS)
         values["masses"] = got_masses
     if columns.inertias is None:
         if not np.all(np.isfinite(got_inertias)):
-            raise refuse(INERTIA, "The inertia of a shape is out of the range of numbers.")
+            raise refuse(INERTIA, _NO_INERTIA)
         values["inertias"] = got_inertias
+
+
+def prepare_one(
+    kind: Kind, given: Mapping[str, Any], materials: Materials, meshes: Mapping[int, Mesh]
+) -> dict[str, Any]:
+    """Complete the values of one body, each checked already: as `prepare`, but quicker."""
+    if kind not in NEEDED or given["hollow"]:
+        columns = BodyColumns(kinds=np.array([kind], dtype=np.int8))
+        for key, value in given.items():
+            setattr(columns, key, np.asarray(value)[None])
+        return {key: value[0] for key, value in prepare(columns, materials, meshes).items()}
+    mass, inertia = given.get("masses"), given.get("inertias")
+    sizes = np.array([given["dimensions"]])
+    with np.errstate(all="ignore"):
+        if mass is None:
+            mass = solid_volume(kind, sizes)[0] * materials[given["material_ids"]].density
+            if not 0.0 < mass < np.inf:
+                raise refuse(MASS, _NO_MASS)
+        if inertia is None:
+            inertia = np.diag(solid_inertia(kind, sizes, np.array([mass]))[0])
+            if not np.isfinite(inertia).all():
+                raise refuse(INERTIA, _NO_INERTIA)
+    return {**given, "kinds": kind, "masses": mass, "inertias": inertia}
 
 
 def mass_and_inertia(
@@ -183,7 +208,9 @@ def mass_and_inertia(
 
 def _sized_kinds(kinds: Array) -> list[Kind]:
     """The kinds with dimensions that there are."""
-    return [kind for kind in map(Kind, np.flatnonzero(np.bincount(kinds)).tolist()) if kind in NEEDED]
+    return [
+        kind for kind in map(Kind, np.flatnonzero(np.bincount(kinds)).tolist()) if kind in NEEDED
+    ]
 
 
 def _densities(ids: Array, materials: Materials) -> Array:
