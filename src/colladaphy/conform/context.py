@@ -238,7 +238,7 @@ def standard_elements_with(root: etree._Element, attribute: str) -> list[etree._
 @cache
 def _having(attribute: str) -> etree.XPath:
     inside = "ancestor::*[local-name() = 'technique'][@profile]"
-    return etree.XPath(f"//*[@{attribute}][not({inside})]")
+    return etree.XPath(f"/descendant-or-self::*[@{attribute}][not({inside})]")
 
 
 def _labels(parent: etree._Element) -> dict[etree._Element, str]:

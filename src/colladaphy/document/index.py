@@ -19,7 +19,9 @@ _INSTANCE_NODE = c("instance_node")
 _VISUAL_SCENES = c("library_visual_scenes")
 _TECHNIQUE = c("technique")
 # What stands in a technique of some profile is that profile's own affair.
-_WITH_ID = etree.XPath("//*[@id][not(ancestor::*[local-name() = 'technique'][@profile])]")
+_WITH_ID = etree.XPath(
+    "/descendant-or-self::*[@id][not(ancestor::*[local-name() = 'technique'][@profile])]"
+)
 
 
 class Index:
