@@ -30,11 +30,11 @@ Array = NDArray[Any]
 class Rows:
     """The bodies in columns, as far as ids and constraints need them; one entry a body."""
 
-    elements: list[etree._Element] = field(default_factory=list)
+    elements: Sequence[etree._Element] = ()
     """The instance_rigid_body elements."""
     places: list[int] = field(default_factory=list)
     """Their places among all instances of the model."""
-    bodies: list[etree._Element] = field(default_factory=list)
+    bodies: Sequence[etree._Element] = ()
     """The rigid_body elements."""
     sids: list[int | None] = field(default_factory=list)
     """The system ids that are wanted."""

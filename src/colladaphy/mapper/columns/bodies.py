@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from colladaphy.document.names import c
 from colladaphy.mapper.bodies import system_id
-from colladaphy.mapper.columns.texts import Column, number_rows, recognised, record_texts
+from colladaphy.mapper.columns.texts import Column, count_of, number_rows, recognised
 from colladaphy.world.kinds import Kind
 from colladaphy.world.shapes import NEEDED
 
@@ -22,7 +23,7 @@ Array = NDArray[Any]
 _MATERIAL = r'<instance_physics_material url="(?P<{0}>[^"]*)"/>\s*'
 
 # One primitive, in its own place, with a mass and a material; of the pe profile nothing but the
-# user id. The end tag is left out.
+# user id.
 _REGULAR = re.compile(
     r'\s*<rigid_body(?: sid="(?P<sid>[^"&]*)">|\s[^>]*>)\s*<technique_common>\s*'
     r"(?:<dynamic>(?P<dynamic>[^<]+)</dynamic>\s*)?"
@@ -41,7 +42,7 @@ _REGULAR = re.compile(
     r"(?:<rotate>(?P<step>[^<]+)</rotate>\s*)?"
     r"</shape>\s*</technique_common>\s*"
     r'(?:<technique profile="(?P<profile>pe)">\s*<pe:body(?: uid="(?P<uid>[^"]*)")?/>\s*'
-    r"</technique>\s*)?"
+    r"</technique>\s*)?</rigid_body>"
 )
 _OUR_SIDS = re.compile(r"Body[0-9]{1,18}(?: Body[0-9]{1,18})*+")
 _TURNED = np.array([0.0, 0.0, 1.0, -90.0])
@@ -52,8 +53,8 @@ class BodyTable:
     """One row for each rigid_body of a model."""
 
     def __init__(self, model: etree._Element) -> None:
-        self.elements = list(model.iterchildren(c("rigid_body")))
-        count = len(self.elements)
+        self._model = model
+        count = count_of(model, "rigid_body")
         self.regular: Array = np.zeros(count, dtype=np.bool_)
         self.kinds: Array = np.zeros(count, dtype=np.int8)
         self.dimensions: Array = np.zeros((count, 4))
@@ -67,17 +68,20 @@ class BodyTable:
         """References to materials."""
         self.names: dict[int, str] = {}
         """Names by row."""
-        texts = record_texts(model, "rigid_body", count)
-        self._sids: Column = (None,) * count
-        if texts:
-            try:
-                self._read(*recognised(_REGULAR, texts))
-            except (ValueError, OverflowError):
-                self.regular[...] = False
+        self._sids: Column = ("",) * count
+        try:
+            self._read(*recognised(_REGULAR, model, "rigid_body", count))
+        except (ValueError, OverflowError):
+            self.regular[...] = False
         self.index: dict[str, int] = {}
         """The first row of each sid."""
         for row, sid in enumerate(self._sids):
-            self.index.setdefault(self.elements[row].get("sid", "") if sid is None else sid, row)
+            self.index.setdefault(sid or self.elements[row].get("sid", ""), row)
+
+    @cached_property
+    def elements(self) -> list[etree._Element]:
+        """The rigid_body elements, which are not needed where all are regular."""
+        return list(self._model.iterchildren(c("rigid_body")))
 
     def _read(self, rows: Array, columns: dict[str, Column]) -> None:
         if not len(rows):
@@ -97,22 +101,21 @@ class BodyTable:
         """Sids, names and references to materials."""
         sids = list(columns["sid"])
         for place, sid in enumerate(sids):
-            if sid is None:  # there are other attributes, or none
+            if not sid:  # there are other attributes
                 element = self.elements[rows[place]]
                 sids[place] = element.get("sid", "")
                 name = element.get("name")
                 if name is not None:
                     self.names[rows[place]] = name
         urls = [
-            (inner if outer is None else outer) or ""
+            outer or inner
             for outer, inner in zip(columns["body_material"], columns["material"], strict=True)
         ]
-        wanted = system_ids([sid or "" for sid in sids])
         wanted = [
-            None if profile is None else sid
-            for profile, sid in zip(columns["profile"], wanted, strict=True)
+            sid if profile else None
+            for profile, sid in zip(columns["profile"], system_ids(sids), strict=True)
         ]
-        if len(rows) == len(self.elements):
+        if len(rows) == len(self.regular):
             self._sids, self.materials, self.sids = tuple(sids), urls, wanted
             return
         known = list(self._sids)
@@ -170,7 +173,6 @@ def system_ids(sids: list[str]) -> list[int | None]:
 
 
 def _booleans(texts: Column, *, default: bool) -> Array:
-    """xs:boolean; `default` for None."""
-    known = {text: default if text is None else text.strip() in ("true", "1")
-             for text in set(texts)}  # fmt: skip
+    """xs:boolean; `default` where there is none."""
+    known = {text: text.strip() in ("true", "1") if text else default for text in set(texts)}
     return np.array([known[text] for text in texts], dtype=np.bool_)

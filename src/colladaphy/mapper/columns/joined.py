@@ -40,7 +40,7 @@ class Joined:
     ) -> None:
         self._motions = motions
         self._table = table
-        count = len(motions.elements)
+        count = len(motions.regular)
         bodies = np.array([table.index.get(name, -1) for name in motions.bodies], dtype=np.int64)
         places = np.array([nodes.rows.get(name, -1) for name in motions.targets], dtype=np.int64)
         regular = motions.regular & (bodies >= 0) & (places >= 0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -10,7 +11,7 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from colladaphy.document.names import c
-from colladaphy.mapper.columns.texts import Column, number_rows, recognised, record_texts
+from colladaphy.mapper.columns.texts import Column, count_of, number_rows, recognised
 from colladaphy.mapper.numbers import DEGREE
 
 __all__ = ["KEPT", "MotionTable"]
@@ -20,7 +21,7 @@ Array = NDArray[Any]
 KEPT = ("position", "orientation", "linear_velocity", "angular_velocity", "force", "torque")
 """What the pe profile says of a motion."""
 
-# Nothing but velocities, and of the pe profile nothing but the motion. The end tag is left out.
+# Nothing but velocities, and of the pe profile nothing but the motion.
 _REGULAR = re.compile(
     r"\s*<instance_rigid_body"
     r'(?: body="(?P<body>[^"&]*)" target="(?P<target>[^"&]*)">|\s[^>]*>)\s*'
@@ -29,7 +30,7 @@ _REGULAR = re.compile(
     r"(?:<velocity>(?P<linear>[^<]+)</velocity>\s*)?</technique_common>)\s*"
     r'(?:<technique profile="pe">\s*<pe:motion(?: sleeping="(?P<sleeping>[^"]*)")?(?:/>|>\s*'
     + "".join(rf"(?:<pe:{name}>(?P<{name}>[^<]+)</pe:{name}>\s*)?" for name in KEPT)
-    + r"</pe:motion>)\s*</technique>\s*)?"
+    + r"</pe:motion>)\s*</technique>\s*)?</instance_rigid_body>"
 )
 
 
@@ -37,8 +38,8 @@ class MotionTable:
     """One row for each instance_rigid_body of an instance of a model."""
 
     def __init__(self, model: etree._Element) -> None:
-        self.elements = list(model.iterchildren(c("instance_rigid_body")))
-        count = len(self.elements)
+        self._model = model
+        count = count_of(model, "instance_rigid_body")
         self.regular: Array = np.zeros(count, dtype=np.bool_)
         self.bodies: list[str] = [""] * count
         self.targets: list[str] = [""] * count
@@ -53,16 +54,21 @@ class MotionTable:
         """Where the pe profile has a value."""
         self.names: dict[int, str] = {}
         """Names by row."""
-        texts = record_texts(model, "instance_rigid_body", count)
-        if texts:
-            rows, columns = recognised(_REGULAR, texts)
-            try:
-                self._read(rows, columns)
-            except ValueError:
-                return
-            self.regular[rows] = True
+        try:
+            rows, columns = recognised(_REGULAR, model, "instance_rigid_body", count)
+            self._read(rows, columns)
+        except ValueError:
+            return
+        self.regular[rows] = True
+
+    @cached_property
+    def elements(self) -> list[etree._Element]:
+        """The instances, which are not needed where all are regular."""
+        return list(self._model.iterchildren(c("instance_rigid_body")))
 
     def _read(self, rows: Array, columns: dict[str, Column]) -> None:
+        if not len(rows):
+            return
         self.linear[rows] = number_rows(columns["linear"], 3)[0]
         self.angular[rows] = number_rows(columns["angular"], 3)[0] * DEGREE
         self.sleeping[rows] = [text in ("true", "1") for text in columns["sleeping"]]
@@ -72,16 +78,17 @@ class MotionTable:
             self.has[name][rows] = has
         self._identify(rows.tolist(), list(columns["body"]), list(columns["target"]))
 
-    def _identify(
-        self, rows: list[int], bodies: list[str | None], targets: list[str | None]
-    ) -> None:
+    def _identify(self, rows: list[int], bodies: list[str], targets: list[str]) -> None:
         """References and names."""
         for place, body in enumerate(bodies):
-            if body is None:  # there are other attributes, or others first
+            if not body:  # there are other attributes, or others first
                 element = self.elements[rows[place]]
                 bodies[place], targets[place] = element.get("body", ""), element.get("target", "")
                 name = element.get("name")
                 if name is not None:
                     self.names[rows[place]] = name
+        if len(rows) == len(self.regular):
+            self.bodies, self.targets = bodies, targets
+            return
         for row, body, target in zip(rows, bodies, targets, strict=True):
-            self.bodies[row], self.targets[row] = body or "", target or ""
+            self.bodies[row], self.targets[row] = body, target

@@ -23,8 +23,8 @@ _PLAIN = re.compile(
 )
 _NODE, _TRANSLATE, _ROTATE = c("node"), c("translate"), c("rotate")
 _OTHERS = frozenset(c(name) for name in ("matrix", "scale", "skew", "lookat"))
-Place = tuple[str, str | None, str | None]
-"""The id of a node, and the texts of its translation and rotation."""
+Place = tuple[str, str, str]
+"""The id of a node, and the texts of its translation and rotation, empty for none."""
 
 
 class NodeTable:
@@ -61,7 +61,7 @@ def _plain_nodes(scene: etree._Element) -> list[Place] | None:
     text = whole_text(scene, "node")
     if text is None:
         return None
-    found = _PLAIN.findall(text)
+    found: list[Place] = _PLAIN.findall(text)
     # Each match holds one start tag, so all nodes were found, and none is in another one.
     count = len(found)
     if (
@@ -69,14 +69,14 @@ def _plain_nodes(scene: etree._Element) -> list[Place] | None:
         or sum(1 for _ in scene.iterchildren(_NODE)) != count
     ):
         return None
-    return [(name, move or None, turn or None) for name, move, turn in found]
+    return found
 
 
 def _nodes(scene: etree._Element) -> list[Place]:
     """The regular nodes of any scene."""
     places: list[Place] = []
     for node in scene.iterchildren(_NODE):
-        texts: dict[str, str | None] = {}
+        texts: dict[str, str] = {}
         for child in node:
             tag = child.tag
             if tag in _OTHERS:
@@ -88,5 +88,5 @@ def _nodes(scene: etree._Element) -> list[Place]:
         else:
             name = node.get("id")
             if name is not None:
-                places.append((name, texts.get(_TRANSLATE), texts.get(_ROTATE)))
+                places.append((name, texts.get(_TRANSLATE, ""), texts.get(_ROTATE, "")))
     return places

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from lxml import etree
+from numpy.typing import NDArray
 
 from colladaphy.document.names import c
 from colladaphy.mapper.batches import Batch, Rows
@@ -20,6 +21,24 @@ if TYPE_CHECKING:
     from colladaphy.mapper.materials import MaterialTable
 
 __all__ = ["RegularBodies"]
+
+Array = NDArray[Any]
+
+
+class Chosen(Sequence[etree._Element]):
+    """Some of the elements of a table, of which none is made before it is asked for."""
+
+    def __init__(self, table: BodyTable | MotionTable, rows: Array) -> None:
+        self._table = table
+        self._rows = rows
+
+    def __len__(self) -> int:
+        return len(self._rows)
+
+    def __getitem__(self, index: Any) -> Any:
+        if isinstance(index, slice):
+            return [self._table.elements[row] for row in self._rows[index].tolist()]
+        return self._table.elements[int(self._rows[index])]
 
 
 class RegularBodies:
@@ -59,11 +78,10 @@ class RegularBodies:
         if not len(joined.rows):
             return
         batch.columns = columns = joined.columns(self._ids)
-        places = joined.rows.tolist()
         batch.rows = Rows(
-            [motions.elements[place] for place in places],
-            places,
-            [table.elements[row] for row in joined.bodies.tolist()],
+            Chosen(motions, joined.rows),
+            joined.rows.tolist(),
+            Chosen(table, joined.bodies),
             joined.sids,
             columns.kinds.tolist(),
         )

@@ -8,7 +8,7 @@ file, what stands in it, and that nothing else does.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 from colladaphy.document.names import COLLADA, PE
 from colladaphy.mapper.bulk import numbers_of
 
-__all__ = ["Column", "number_rows", "recognised", "record_texts", "whole_text"]
+__all__ = ["Column", "count_of", "number_rows", "recognised", "whole_text"]
 
 Array = NDArray[Any]
-Column = tuple[str | None, ...]
+Column = tuple[str, ...]
+"""Texts of one field, empty where a record has none."""
 
 
 def whole_text(parent: etree._Element, name: str) -> str | None:
@@ -44,46 +45,54 @@ def whole_text(parent: etree._Element, name: str) -> str | None:
     return text[start:]
 
 
-def record_texts(parent: etree._Element, name: str, count: int) -> list[str] | None:
-    """The texts of the `count` children of a name, without their end tags; None if not told apart.
+def count_of(parent: etree._Element, name: str) -> int:
+    """The number of children of a name in COLLADA's namespace."""
+    return int(float(str(_count(name)(parent))))
 
-    Such a child must not be empty. What stands before a child counts as its own.
+
+@cache
+def _count(name: str) -> etree.XPath:
+    return etree.XPath(f"count(c:{name})", namespaces={"c": COLLADA})
+
+
+def recognised(
+    pattern: re.Pattern[str], parent: etree._Element, name: str, count: int
+) -> tuple[Array, dict[str, Column]]:
+    """Which of the `count` children of a name a pattern matches, and its named groups in those.
+
+    The pattern matches a whole child, with its end tag and what stands before it; such a child
+    must not be empty.
     """
     text = whole_text(parent, name)
-    if text is None:
-        return None
-    parts = text.split(f"</{name}>")
+    end = f"</{name}>"
     # A child has one such end tag, so if there are as many as children, none is within a child.
-    return parts[:-1] if len(parts) == count + 1 else None
-
-
-def recognised(pattern: re.Pattern[str], texts: Sequence[str]) -> tuple[Array, dict[str, Column]]:
-    """Which of the texts a pattern matches as a whole, and its named groups in those."""
-    matches = list(map(pattern.fullmatch, texts))
-    groups = [match.groups() for match in matches if match is not None]
-    if len(groups) == len(texts):
-        rows = np.arange(len(texts))
-    else:
-        rows = np.array([row for row, match in enumerate(matches) if match is not None], np.int64)
+    if text is None or not count or text.count(end) != count:
+        return np.zeros(0, dtype=np.int64), {}
+    groups = pattern.findall(text)
+    rows = np.arange(count)
+    if len(groups) != count:
+        matches = [pattern.fullmatch(part + end) for part in text.split(end)[:-1]]
+        groups = [match.groups("") for match in matches if match is not None]
+        rows = np.flatnonzero([match is not None for match in matches])
     columns = list(zip(*groups, strict=True)) or [()] * pattern.groups
     return rows, {name: columns[number - 1] for name, number in pattern.groupindex.items()}
 
 
 def number_rows(texts: Column, width: int) -> tuple[Array, Array]:
-    """Rows of numbers (n, width), zeros for None, and where there is a text (n,).
+    """Rows of numbers (n, width), zeros where there is no text, and where there is one (n,).
 
     ValueError where the numbers are not so many.
     """
     count = len(texts)
-    given = [text for text in texts if text is not None]
     has = np.ones(count, dtype=np.bool_)
-    if not given:
+    missing = texts.count("")
+    if missing == count:
         return np.zeros((count, width)), ~has
-    if len(given) == count:
-        if given[0] == given[-1] and given.count(given[0]) == count:
-            return np.repeat(numbers_of(given[:1], width), count, axis=0), has
-        return numbers_of(given, width), has
-    has[:] = [text is not None for text in texts]
+    if not missing:
+        if texts[0] == texts[-1] and texts.count(texts[0]) == count:
+            return np.repeat(numbers_of(texts[:1], width), count, axis=0), has
+        return numbers_of(texts, width), has
+    has[:] = list(map(bool, texts))
     numbers = np.zeros((count, width))
-    numbers[has] = numbers_of(given, width)
+    numbers[has] = numbers_of([text for text in texts if text], width)
     return numbers, has
