@@ -31,6 +31,7 @@ ANY_QUIRKS = (
     "attachment-matrix",
     "attachment-names",
     "bare-instances",
+    "body-paths",
     "capitals",
     "comments",
     "dates-without-zone",
@@ -126,6 +127,27 @@ PRODUCERS = {
         joints=True,
         moving=True,
         centred=True,
+    ),
+    # Listing 2 of the thesis, and its technique without a namespace of its own.
+    "thesis": Producer(
+        None,
+        "1.5.0",
+        always=frozenset(
+            {
+                "body-paths",
+                "common-in-joints",
+                "mass-in-shape",
+                "reference-path",
+                "second-attachment-first",
+                "technique-first",
+                "three-radii",
+            }
+        ),
+        may=tuple(quirk for quirk in ANY_QUIRKS if quirk != "effects"),  # they are those of 1.4
+        kinds=("box", "sphere", "mesh"),
+        profile="pe",
+        joints=True,
+        moving=True,
     ),
     "bullet": Producer(
         "Bullet Physics SDK 282 Snapshot(BulletColladaConverter) http://bulletphysics.com",
@@ -322,12 +344,17 @@ class _Writer:
         technique = ""
         if self.producer.profile:
             inner = tag("linear_damping", "0.0625") + tag("params", tag("sleep", "true"))
+            if self.producer.profile == "pe":
+                inner = tag("uid", "7")
             technique = tag("technique", inner, profile=self.producer.profile)
         extra = ""
         if "extra-in-body" in self.quirks:
             extra = tag("extra", tag("technique", tag("colour", "red"), profile="ours"))
-        return tag("rigid_body", tag("technique_common", *values), technique, extra, sid=sid,
-                   name=link.name)  # fmt: skip
+        common = tag("technique_common", *values)
+        parts = (common, technique)
+        if "technique-first" in self.quirks:
+            parts = (technique, common)
+        return tag("rigid_body", *parts, extra, sid=sid, name=link.name)  # fmt: skip
 
     def _shape(self, id: str, solid: Solid) -> str:
         if solid.kind == "mesh":
@@ -349,6 +376,8 @@ class _Writer:
             made = made.replace("half_extents", "half_extends")
         moved = transforms(solid.steps)
         hollow = tag("hollow", "true") if "hollow" in self.quirks else ""
+        if "mass-in-shape" in self.quirks:  # shapes share the body's by these
+            moved += tag("mass", numbers([2 * solid.volume]))
         first = "transform-first" in self.quirks
         return tag("shape", hollow, *((moved, made) if first else (made, moved)))
 
@@ -412,8 +441,10 @@ class _Writer:
                 for index, user in enumerate(users)
             ]
         else:
+            inner = tag("technique_common") if "common-in-joints" in self.quirks else ""
+            path = "model/" if "body-paths" in self.quirks else ""
             joints = [
-                tag("instance_rigid_constraint", constraint=joint.name)
+                tag("instance_rigid_constraint", inner, constraint=path + joint.name)
                 for joint in self.scene.joints
             ]
             models = [tag("instance_physics_model", *users, *joints, url="#model", sid="use")]
@@ -440,6 +471,8 @@ class _Writer:
         if "bare-instances" in self.quirks and not values:
             inner = ""
         body: str | None = self.names[index]
+        if "body-paths" in self.quirks:
+            body = f"{self._model_name(index)}/{body}"
         if "no-sids" in self.quirks and self.split:
             body = None
         return tag("instance_rigid_body", inner, body=body, target=f"#{self.names[index]}-node")
