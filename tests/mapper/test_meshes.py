@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import math
 
 import numpy as np
@@ -13,7 +14,7 @@ from tests.mapper.documents import simple
 import colladaphy
 from colladaphy.mapper.hull import convex_hull
 from colladaphy.mapper.tessellation import extent, tessellate
-from colladaphy.world import Body, Kind, Mesh
+from colladaphy.world import Body, Kind, Mesh, compare
 
 CUBE = "0 0 0 1 0 0 1 1 0 0 1 0 0 0 1 1 0 1 1 1 1 0 1 1"
 QUADS = ["0 3 2 1", "4 5 6 7", "0 1 5 4", "2 3 7 6", "1 2 6 5", "0 4 7 3"]
@@ -196,3 +197,16 @@ def test_tessellations_are_closed_convex_and_large_enough(
     edges = edges_of(mesh)
     assert len(set(edges)) == len(edges)
     assert all((b, a) in set(edges) for a, b in edges)
+
+
+def test_a_comment_inside_an_array_does_not_cut_it_short() -> None:
+    world = colladaphy.World()
+    vertices = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    world.create_mesh(1, (0, 0, 0), vertices, faces, "iron")
+    stored = io.BytesIO()
+    colladaphy.write(world, stored)
+    data = stored.getvalue().replace(b"<p>0 2", b"<p>0 <!-- here -->2")
+    data = data.replace(b' count="12">0 0', b' count="12">0 <!-- here -->0')
+    assert data.count(b"<!-- here -->") == 2
+    assert compare(colladaphy.read(data).load(), world) == []

@@ -10,6 +10,7 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from colladaphy.document.names import c, local_name
+from colladaphy.document.nodes import text_of
 from colladaphy.errors import DocumentError, WorldError
 from colladaphy.mapper import rules
 from colladaphy.mapper.polygons import triangulate
@@ -145,7 +146,7 @@ def _source_rows(source: etree._Element) -> Array:
     accessor = source.find(f"{c('technique_common')}/{c('accessor')}")
     if array is None or accessor is None:
         raise ShapeError(f"The source {source.get('id')!r} has no numbers.")
-    values = np.array((array.text or "").split(), dtype=np.float64)
+    values = np.array(text_of(array).split(), dtype=np.float64)
     count = int(accessor.get("count", "0"))
     stride = int(accessor.get("stride", "1"))
     offset = int(accessor.get("offset", "0"))

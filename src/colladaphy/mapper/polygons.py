@@ -10,6 +10,7 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from colladaphy.document.names import c
+from colladaphy.document.nodes import text_of
 
 __all__ = ["triangulate"]
 
@@ -49,7 +50,7 @@ def _lists(group: etree._Element) -> Iterator[etree._Element]:
 
 
 def _indices(element: etree._Element) -> Array:
-    return np.array((element.text or "").split(), dtype=np.int64)
+    return np.array(text_of(element).split(), dtype=np.int64)
 
 
 def _joined(parts: list[Array]) -> Array:
