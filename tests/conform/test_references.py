@@ -3,7 +3,18 @@
 from __future__ import annotations
 
 import pytest
-from tests.conform.documents import BOX, MESH, C, codes, document, kept, mended, names, physics
+from tests.conform.documents import (
+    BOX,
+    MESH,
+    C,
+    codes,
+    document,
+    kept,
+    mended,
+    names,
+    physics,
+    words,
+)
 
 BODIES = "".join(
     f'<rigid_body sid="b{i}" id="body{i}" name="Body {i}"><technique_common>{BOX}'
@@ -218,7 +229,8 @@ def test_inertia_as_a_matrix_turns_the_mass_frame() -> None:
     root, findings = mended(physics("<inertia>2 0 0 0 3 1 0 1 3</inertia>" + BOX))
     values = [float(v) for v in (next(root.iter(C + "inertia")).text or "").split()]
     assert sorted(values) == pytest.approx([2, 2, 4])
-    assert names(root, "mass_frame") == ["rotate"]
+    assert names(root, "mass_frame") == ["translate", "rotate"]
+    assert words(root, "mass_frame/translate") == ["0", "0", "0"]
     assert codes(findings) == {"repair-inertia-matrix"}
 
 

@@ -7,21 +7,18 @@ from lxml import etree
 
 from colladaphy.conform import rules
 from colladaphy.conform.context import CONFORM, NS, OWN_MAP, Context, append, insert, local, remove
-from colladaphy.conform.frames import axis_angle, nearest_rotation, of_element, transform_of
+from colladaphy.conform.frames import nearest_rotation, transform_of
 from colladaphy.conform.lexical import name_from
+from colladaphy.conform.placing import place_elements
 from colladaphy.conform.shapes import GEOMETRIES, TAPERED
-from colladaphy.conform.solids import are_usable, numbers_of
+from colladaphy.conform.solids import are_usable
 
 __all__ = [
     "assumed_shape",
     "body_targets",
     "complete_constraints",
-    "diagonalise_inertia",
-    "drop_empty_mass_frames",
     "give_shapes",
     "name_bodies",
-    "place_elements",
-    "split_matrices",
     "wrap_bare_instances",
 ]
 
@@ -89,100 +86,6 @@ def complete_constraints(context: Context) -> None:
                 insert(constraint, first[0] + 1 if at and first else 0, new)
                 message = f"<rigid_constraint> had no <{name}>: it holds its body to the world"
                 context.note(rules.MISSING_ATTACHMENT, constraint, message)
-
-
-def drop_empty_mass_frames(context: Context) -> None:
-    """A mass_frame without transforms is not allowed, and is the default one."""
-    for frame in context.all("mass_frame"):
-        empty = next(frame.iterchildren(tag=etree.Element), None) is None
-        if empty and not (frame.text or "").strip() and context.wants(rules.EMPTY_MASS_FRAME):
-            context.note(rules.EMPTY_MASS_FRAME, frame, "<mass_frame> was empty; removed")
-            remove(frame)
-
-
-def place_elements(context: Context, matrix: np.ndarray) -> list[etree._Element]:
-    """A rigid transform as translate and rotate; parts that do nothing are left out."""
-    made = []
-    if np.any(matrix[:3, 3] != 0.0):
-        made.append(context.make("translate", " ".join(_number(v) for v in matrix[:3, 3])))
-    axis = axis_angle(matrix)
-    if axis[3] != 0.0:
-        made.append(context.make("rotate", " ".join(_number(v) for v in axis)))
-    return made
-
-
-def _number(value: float) -> str:
-    """A float as XML Schema spells it; -0 and rounding dust near whole numbers are cleaned."""
-    whole = round(float(value))
-    if abs(value - whole) < 1e-14:
-        return str(whole)
-    return repr(float(value))
-
-
-def split_matrices(context: Context) -> None:
-    """A matrix where only translate and rotate may stand becomes these two."""
-    for matrix in context.all("matrix"):
-        parent = matrix.getparent()
-        if parent is None or local(parent) not in (
-            "shape", "mass_frame", "attachment", "ref_attachment", "link", "frame_origin",
-            "frame_tip", "frame_tcp", "frame_object", "attachment_full", "attachment_start",
-            "attachment_end",
-        ):  # fmt: skip
-            continue
-        if (
-            len(values := numbers_of(matrix)) != 16
-            or not are_usable(values)
-            or not context.wants(rules.MATRIX)
-        ):
-            continue
-        rigid, exact = nearest_rotation(of_element(matrix))
-        made = place_elements(context, rigid)
-        if not made and local(parent) == "mass_frame":
-            made = [context.make("translate", "0 0 0")]
-        for offset, new in enumerate(made):
-            insert(parent, parent.index(matrix), new) if not offset else made[0].addnext(new)
-        message = f"<matrix> in <{local(parent)}> is now " + (
-            " and ".join(f"<{local(new)}>{new.text}" for new in made) or "nothing (identity)"
-        )
-        if exact:
-            context.note(rules.MATRIX, matrix, message)
-            remove(matrix)
-        else:
-            context.note(rules.MATRIX, matrix, message + "; its scale or skew is lost")
-            context.stash(matrix)
-
-
-def diagonalise_inertia(context: Context) -> None:
-    """Inertia as a full matrix becomes its principal values and a turned mass_frame."""
-    for inertia in context.all("inertia"):
-        values = numbers_of(inertia)
-        if len(values) != 9 or not context.wants(rules.INERTIA):
-            continue
-        tensor = np.asarray(values).reshape(3, 3)
-        if not are_usable(values):
-            continue
-        before = " ".join((inertia.text or "").split())
-        if np.count_nonzero(tensor - np.diag(np.diag(tensor))) == 0:
-            principal = np.diag(tensor)
-        else:
-            principal, axes = np.linalg.eigh((tensor + tensor.T) / 2)
-            turn = np.eye(4)
-            turn[:3, :3] = axes if np.linalg.det(axes) > 0 else axes * (1, 1, -1)
-            _turn_mass_frame(context, inertia, turn)
-        inertia.text = " ".join(_number(value) for value in principal)
-        message = f"inertia was the matrix {before}, is now {inertia.text} in a turned mass_frame"
-        context.note(rules.INERTIA, inertia, message)
-
-
-def _turn_mass_frame(context: Context, inertia: etree._Element, turn: np.ndarray) -> None:
-    body = inertia.getparent()
-    assert body is not None
-    frame = body.find(NS + "mass_frame")
-    if frame is None:
-        frame = context.make("mass_frame")
-        insert(body, body.index(inertia), frame)
-    for element in place_elements(context, turn):
-        append(frame, element)
 
 
 def give_shapes(context: Context) -> None:

@@ -65,6 +65,8 @@ class Context:
         self.findings: list[Finding] = []
         self.origin = origin
         self.far_lines: dict[etree._Element, int] = {}
+        self.unplaced: set[etree._Element] = set()
+        """Frames of mass that were made and do not say yet where they are."""
         self._only = None if only is None else frozenset(only)
         # The stubs of lxml do not know that a prefix may be None.
         self._map = cast(Mapping[str, str], {root.prefix: NAMESPACE})

@@ -10,6 +10,7 @@ from urllib.parse import quote
 from lxml import etree
 
 from colladaphy.conform.grammar import SimpleType
+from colladaphy.conform.numerals import plain_numbers, spelled_number
 
 __all__ = ["is_valid", "mend", "name_from"]
 
@@ -26,6 +27,7 @@ _INTEGERS = {
     "unsignedShort": (0, 2**16 - 1),
     "unsignedByte": (0, 255),
 }
+_ANY = 1 << 30
 _NAMES = ("NCName", "ID", "IDREF", "Name", "NMTOKEN")
 _FLOAT = r"(?:[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|-?INF|NaN)"
 _PLAIN = {
@@ -138,16 +140,19 @@ def mend(text: str, kind: SimpleType) -> tuple[str | None, bool]:
 
 def _mend_list(text: str, kind: SimpleType) -> tuple[str | None, bool]:
     assert kind.item is not None
-    parts = text.split()
+    low, high = kind.length or (0, _ANY)
     if "," in text or ";" in text:
-        parts = [part for part in re.split(r"[\s,;]+", text) if part]
+        if kind.item.primitive in ("double", "float"):
+            text, _ = plain_numbers(text, low, high)
+        else:
+            text = re.sub(r"[,;]", " ", text)
+    parts = text.split()
     mended: list[str] = []
     for part in parts:
         atom = part if _atom_is_valid(part, kind.item) else _mend_atom(part, kind.item)
         if atom is None:
             return None, False
         mended.append(atom)
-    low, high = kind.length or (0, len(mended))
     if len(mended) < low:
         if kind.name == "fx_color_type" and len(mended) == 3:
             mended.append("1")  # a colour without alpha is opaque
@@ -175,7 +180,8 @@ def _attempts(text: str, kind: SimpleType) -> list[str | None]:
     if primitive == "boolean":
         return [_boolean(text)]
     if primitive in ("double", "float"):
-        return [_FOREIGN_FLOATS.get(text.lower()), text.rstrip("fFdD"), text.replace(",", ".")]
+        plain = plain_numbers(text, 1, 1)[0]
+        return [_FOREIGN_FLOATS.get(text.lower()), spelled_number(text), plain]
     if primitive in _INTEGERS:
         return [_integer(text, kind)]
     if primitive in _NAMES:

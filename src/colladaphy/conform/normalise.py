@@ -24,7 +24,9 @@ from colladaphy.conform.grammar import (
     stated_type,
 )
 from colladaphy.conform.lexical import is_valid, mend
+from colladaphy.conform.numerals import plain_numbers
 from colladaphy.conform.plan import Plan, Pool, set_children
+from colladaphy.findings import Rule
 from colladaphy.schema import gate
 
 __all__ = ["drop_foreign_types", "normalise"]
@@ -115,10 +117,11 @@ class _Normaliser:
             return
         mended, less = mend(text, kind)
         name = local(element)
-        if mended is not None and self.context.wants(rules.LEXICAL_FORM):
+        rule = _rule_of(text, kind, less=less)
+        if mended is not None and self.context.wants(rule):
             self._set_text(element, mended)
             message = f"<{name}> was {_short(text)}, is now {_short(mended)}"
-            self.context.note(rules.LEXICAL_FORM, element, message)
+            self.context.note(rule, element, message + _cut(text, mended, less=less))
             if less:
                 self.context.keep(element, "value", value=_xml_text(text))
         elif mended is None and self.context.wants(rules.UNREADABLE_VALUE):
@@ -179,11 +182,12 @@ class _Normaliser:
         mended, less = mend(value, known.type)
         label = f"attribute {known.name} of <{local(element)}>"
         if mended is not None:
-            if not self.context.wants(rules.LEXICAL_FORM):
+            rule = _rule_of(value, known.type, less=less)
+            if not self.context.wants(rule):
                 return
             element.set(known.name, mended)
             message = f"{label} was {_short(value)}, is now {_short(mended)}"
-            self.context.note(rules.LEXICAL_FORM, element, message)
+            self.context.note(rule, element, message + _cut(value, mended, less=less))
         elif self.context.wants(rules.UNREADABLE_VALUE):
             del element.attrib[known.name]
             message = f"{label} was {_short(value)}, which is no {known.type.name}; removed"
@@ -273,6 +277,25 @@ class _Normaliser:
         if before == order:
             return
         set_children(element, order)
+
+
+def _rule_of(text: str, kind: SimpleType, *, less: bool) -> Rule:
+    """What kind of change it is to mend this text."""
+    if less:
+        return rules.SURPLUS_VALUES
+    primitive = kind.primitive if kind.item is None else kind.item.primitive
+    low, high = (1, 1) if kind.item is None else kind.length or (0, 1 << 30)
+    if primitive in ("double", "float") and plain_numbers(text, low, high)[1]:
+        return rules.DECIMAL_COMMA
+    return rules.LEXICAL_FORM
+
+
+def _cut(text: str, mended: str, *, less: bool) -> str:
+    """What was left out, in words."""
+    if not less:
+        return ""
+    words, _ = plain_numbers(text)
+    return f"; left out: {_short(' '.join(words.split()[len(mended.split()) :]))}"
 
 
 def _names(elements: list[etree._Element]) -> str:

@@ -9,6 +9,7 @@ from lxml import etree
 
 from colladaphy.conform import (
     bodies,
+    inertias,
     references,
     rules,
     scenes,
@@ -17,6 +18,7 @@ from colladaphy.conform import (
     targets,
     upgrade,
 )
+from colladaphy.conform.commas import mend_commas
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import translate
 from colladaphy.conform.conventions.units import free_limits
@@ -24,9 +26,12 @@ from colladaphy.conform.cycles import break_cycles
 from colladaphy.conform.dangling import set_aside_dangling
 from colladaphy.conform.identifiers import mend_ids, mend_sids
 from colladaphy.conform.normalise import drop_foreign_types, normalise
+from colladaphy.conform.numerals import may_lack_digits
+from colladaphy.conform.placing import split_matrices
+from colladaphy.conform.profiles import mend_profiles
 from colladaphy.conform.versions import copy_as_1_5, detect_version, note_version
 from colladaphy.findings import Finding
-from colladaphy.schema import is_valid
+from colladaphy.schema import is_valid_text
 
 __all__ = ["conform"]
 
@@ -45,14 +50,15 @@ _FORM: tuple[_Step, ...] = (
     structure.correct_names,
     structure.house_strays,
     structure.wrap_children,
+    mend_commas,
     shapes.lift_inline_meshes,
     shapes.extend_capsule_radii,
     shapes.mend_radii,
     shapes.split_shapes,
     shapes.drop_empty_shapes,
-    bodies.split_matrices,
-    bodies.diagonalise_inertia,
-    bodies.drop_empty_mass_frames,
+    split_matrices,
+    inertias.diagonalise_inertia,
+    inertias.drop_empty_mass_frames,
     bodies.name_bodies,
     bodies.wrap_bare_instances,
     bodies.complete_constraints,
@@ -119,7 +125,8 @@ def _run(context: Context, twin: etree._ElementTree, version: str, convention: s
     steps = [*(_UPGRADE if version.startswith("1.4") else ()), *_NAMES]
     for step in steps:
         step(context)
-    form_is_right = is_valid(twin)
+    data = etree.tostring(twin)
+    form_is_right = is_valid_text(data) and not may_lack_digits(data)
     for step in () if form_is_right else _FORM:
         step(context)
     for step in _REFERENCES:
@@ -129,8 +136,10 @@ def _run(context: Context, twin: etree._ElementTree, version: str, convention: s
     translate(context, convention)
     for step in () if form_is_right else _REST:
         step(context)
+    mend_profiles(context, valid=form_is_right)
     if any(finding.code in _MOVED for finding in context.findings):
         context.forget_ids()
         for step in _REFERENCES:
             step(context)
     set_aside_dangling(context)
+    inertias.place_mass_frames(context)

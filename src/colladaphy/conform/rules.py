@@ -49,6 +49,24 @@ LEXICAL_FORM = Rule(
     "a value was not in its lexical form",
     "write values as XML Schema spells them",
 )
+DECIMAL_COMMA = Rule(
+    "repair-decimal-comma",
+    _WARNING,
+    "a comma was a decimal mark",
+    "check the numbers; write them with a point, and separate them with blanks",
+)
+SURPLUS_VALUES = Rule(
+    "repair-surplus-values",
+    _WARNING,
+    "a list of fixed length was longer",
+    "the first values count; the whole list is kept in an extra nearby",
+)
+FAULTY_PROFILE = Rule(
+    "repair-faulty-profile",
+    _WARNING,
+    "an element of the pe profile was not valid",
+    "it is kept as text in an extra nearby; the common profile counts",
+)
 UNREADABLE_VALUE = Rule(
     "repair-unreadable-value",
     _WARNING,
@@ -211,6 +229,12 @@ MISSING_ATTACHMENT = Rule(
 EMPTY_MASS_FRAME = Rule(
     "repair-empty-mass-frame", _INFO, "a mass_frame had no transforms", "it is the default one"
 )
+MASS_FRAME_ORIGIN = Rule(
+    "repair-mass-frame-origin",
+    _INFO,
+    "a mass_frame turned, but did not say where it is",
+    "without a translate it is at the origin of the body, not at its shapes",
+)
 MATRIX = Rule(
     "repair-matrix",
     _INFO,
@@ -220,7 +244,7 @@ MATRIX = Rule(
 INERTIA = Rule(
     "repair-inertia-matrix",
     _WARNING,
-    "inertia was a matrix",
+    "inertia was a tensor of six or nine numbers",
     "its principal values are given, in a turned mass_frame",
 )
 # References.

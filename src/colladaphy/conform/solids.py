@@ -12,6 +12,7 @@ from itertools import pairwise
 from lxml import etree
 
 from colladaphy.conform.context import Context, append
+from colladaphy.conform.numerals import plain_numbers
 
 __all__ = [
     "SEGMENTS",
@@ -130,6 +131,7 @@ def numbers_of(element: etree._Element | None) -> list[float]:
     if element is None or not element.text:
         return []
     try:
-        return [float(word) for word in element.text.replace(",", " ").split()]
+        text = element.text
+        return [float(w) for w in (plain_numbers(text)[0] if "," in text else text).split()]
     except ValueError:
         return []

@@ -14,11 +14,12 @@ import numpy as np
 from lxml import etree
 
 from colladaphy.conform import rules
-from colladaphy.conform.bodies import body_targets, place_elements
-from colladaphy.conform.context import NS, Context, insert, local
+from colladaphy.conform.bodies import body_targets
+from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.conventions.clues import Clues, extents, is_assumed, place_of
 from colladaphy.conform.conventions.places import Places
-from colladaphy.conform.frames import TRANSFORMS, Matrix, inverse
+from colladaphy.conform.frames import Matrix, inverse
+from colladaphy.conform.placing import put_place
 
 __all__ = ["apply", "recognise_openhrp3", "recognise_openrave", "recognise_ros"]
 
@@ -236,19 +237,5 @@ def _vote_on_shape(context: Context, link: _Link, shape: etree._Element, votes: 
 
 def _move(context: Context, link: _Link, holder: etree._Element, reading: int) -> None:
     place = place_of(holder)
-    if place is None:
-        return
-    old = [child for child in holder if local(child) in TRANSFORMS]
-    index = holder.index(old[0]) if old else len(holder)
-    if not old:
-        index = next((i for i, c in enumerate(holder) if local(c) == "extra"), len(holder))
-    made = place_elements(context, link.readings(place)[reading])
-    if not made and local(holder) == "mass_frame":
-        made = [context.make("translate", "0 0 0")]
-    tail = old[-1].tail if old else None
-    for child in old:
-        holder.remove(child)
-    for offset, new in enumerate(made):
-        insert(holder, index + offset, new)
-    if made and old and index + len(made) == len(holder):
-        made[-1].tail = tail
+    if place is not None:
+        put_place(context, holder, link.readings(place)[reading])
