@@ -2,7 +2,7 @@
 
 from colladaphy.world import rotations
 from colladaphy.world.body import Body
-from colladaphy.world.columns import BodyColumns, MemberColumns
+from colladaphy.world.columns import BodyColumns, JointColumns, MemberColumns
 from colladaphy.world.compare import compare
 from colladaphy.world.core import EngineState
 from colladaphy.world.joints import FREE, LOCKED, Joint
@@ -18,6 +18,7 @@ __all__ = [
     "BodyColumns",
     "EngineState",
     "Joint",
+    "JointColumns",
     "JointKind",
     "Kind",
     "Material",

@@ -9,7 +9,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from colladaphy.world import rotations, values
 from colladaphy.world.body import Body
-from colladaphy.world.joints import FREE, LOCKED, Frame, Joint, Limits, Spring, limits, spring
+from colladaphy.world.columns import JointColumns
+from colladaphy.world.creating import names_of, new_system_ids
+from colladaphy.world.joints import (
+    FREE,
+    LOCKED,
+    Frame,
+    Joint,
+    Limits,
+    Spring,
+    limits,
+    prepare_joints,
+    spring,
+)
 from colladaphy.world.rules import BODY_GONE, JOINT_BODIES, JOINT_VALUE, SYSTEM_ID, refuse
 from colladaphy.world.uniting import Uniting
 
@@ -135,6 +147,33 @@ class Attaching(Uniting):
         if name is not None:
             self.joint_names[number] = str(name)
         return Joint(cast("Any", self), number)
+
+    def extend_joints(self, columns: JointColumns) -> NDArray[np.int64]:
+        """Create many joints at once, stored as they are given; returns their system ids (n,).
+
+        Bodies are top-level ones. Either all are created or, on WorldError, none.
+        """
+        filled = prepare_joints(columns)
+        bodies = filled["bodies"]
+        count = len(bodies)
+        outside = np.flatnonzero((bodies != 0) & (self.top.find_all(bodies) < 0).reshape(-1, 2))
+        if len(outside):
+            sid = bodies.reshape(-1)[outside[0]]
+            raise refuse(JOINT_BODIES, f"There is no top-level body with the system id {sid}.")
+        sids = new_system_ids(
+            columns.sids, count, self.next_joint_sid, lambda sid: self.joint_table.find(sid) >= 0
+        )
+        names = names_of(sids, columns.names)
+        self.joint_table.extend(sids, filled)
+        self.joint_names.update(names)
+        for body, joint in zip(
+            bodies.reshape(-1).tolist(), np.repeat(sids, 2).tolist(), strict=True
+        ):
+            if body:
+                self.joints_of.setdefault(body, []).append(joint)
+        if count:
+            self.next_joint_sid = max(self.next_joint_sid, int(sids.max()) + 1)
+        return sids
 
     def destroy_joint(self, joint: Joint) -> None:
         """Remove a joint; the bodies stay."""

@@ -1,4 +1,4 @@
-"""Which numbers a World keeps of its bodies, as columns."""
+"""Which numbers a World keeps of its bodies and joints, as columns."""
 
 from __future__ import annotations
 
@@ -11,9 +11,18 @@ from numpy.typing import NDArray
 
 from colladaphy.world.table import Field
 
-__all__ = ["BODY_FIELDS", "MEMBER_FIELDS", "BodyColumns", "MemberColumns"]
+__all__ = [
+    "BODY_FIELDS",
+    "JOINT_FIELDS",
+    "MEMBER_FIELDS",
+    "BodyColumns",
+    "JointColumns",
+    "MemberColumns",
+]
 
-Array = NDArray[Any]
+Bools = NDArray[np.bool_]
+Floats = NDArray[np.float64]
+Integers = NDArray[np.integer[Any]]
 
 _SHAPE_FIELDS: Final[dict[str, Field]] = {
     "uids": (np.int64, ()),
@@ -40,6 +49,19 @@ BODY_FIELDS: Final[dict[str, Field]] = {
 
 MEMBER_FIELDS: Final[dict[str, Field]] = {**_SHAPE_FIELDS, "parents": (np.int64, ())}
 
+JOINT_FIELDS: Final[dict[str, Field]] = {
+    "uids": (np.int64, ()),
+    "bodies": (np.int64, (2,)),
+    "positions": (np.float64, (2, 3)),
+    "orientations": (np.float64, (2, 4)),
+    "linear_limits": (np.float64, (2, 3)),
+    "angular_limits": (np.float64, (2, 3)),
+    "linear_springs": (np.float64, (3,)),
+    "angular_springs": (np.float64, (3,)),
+    "enabled": (np.bool_, ()),
+    "interpenetrate": (np.bool_, ()),
+}
+
 
 @dataclass(slots=True, kw_only=True)
 class BodyColumns:
@@ -48,63 +70,100 @@ class BodyColumns:
     Only `kinds` is always needed to create bodies. What is None has the creators' default: origin
     (for a plane its normal times its displacement), no rotation (for a plane the one that turns
     z onto its normal), at rest, mass and inertia from shape and material, material iron, the next
-    free system ids, user id 0, no names. Given values are stored as they are.
+    free system ids, user id 0, no names. Given values are stored as they are. Rows of unions need
+    system ids, poses, masses and inertias, and their members beside them.
     """
 
-    kinds: Array
+    kinds: Integers
     """(n,) numbers of `Kind`."""
-    sids: Array | None = None
+    sids: Integers | None = None
     """(n,) system ids."""
-    uids: Array | None = None
+    uids: Integers | None = None
     """(n,) user ids."""
-    positions: Array | None = None
+    positions: Floats | None = None
     """(n, 3) centres of mass."""
-    orientations: Array | None = None
+    orientations: Floats | None = None
     """(n, 4) quaternions (w, x, y, z)."""
-    linear_velocities: Array | None = None
+    linear_velocities: Floats | None = None
     """(n, 3)."""
-    angular_velocities: Array | None = None
+    angular_velocities: Floats | None = None
     """(n, 3) in rad/s, in the world frame."""
-    forces: Array | None = None
+    forces: Floats | None = None
     """(n, 3) that act during the next step."""
-    torques: Array | None = None
+    torques: Floats | None = None
     """(n, 3) that act during the next step."""
-    masses: Array | None = None
+    masses: Floats | None = None
     """(n,)."""
-    inertias: Array | None = None
+    inertias: Floats | None = None
     """(n, 3, 3) about the centre of mass, in the body frame."""
-    fixed: Array | None = None
+    fixed: Bools | None = None
     """(n,) True for bodies that nothing moves."""
-    sleeping: Array | None = None
+    sleeping: Bools | None = None
     """(n,) True for bodies that an engine has put to sleep."""
-    material_ids: Array | None = None
+    material_ids: Integers | None = None
     """(n,) ids of materials, -1 for a union."""
-    dimensions: Array | None = None
+    dimensions: Floats | None = None
     """(n, 4) as `colladaphy.world.shapes` lays them out."""
-    hollow: Array | None = None
+    hollow: Bools | None = None
     """(n,) True where the mass is on the surface."""
-    mesh_ids: Array | None = None
+    mesh_ids: Integers | None = None
     """(n,) ids of meshes, -1 for none."""
     names: Sequence[str | None] | None = None
 
 
 @dataclass(slots=True, kw_only=True)
 class MemberColumns:
-    """The members of unions by column, in ascending order of system ids.
+    """The members of unions by column, one row a member, in any order.
 
-    Positions and orientations are relative to the union that is the parent.
+    Positions and orientations are relative to the union that is the parent; masses and inertias
+    are those of the member. The rows of one parent are its members in their order. A World gives
+    them in ascending order of system ids, and the order of members in `World.children`.
     """
 
-    kinds: Array
-    sids: Array
-    uids: Array
-    parents: Array
+    kinds: Integers
+    sids: Integers
+    uids: Integers
+    parents: Integers
     """(n,) system ids of the unions, themselves members or not."""
-    positions: Array
-    orientations: Array
-    masses: Array
-    inertias: Array
-    material_ids: Array
-    dimensions: Array
-    hollow: Array
-    mesh_ids: Array
+    positions: Floats
+    orientations: Floats
+    masses: Floats
+    inertias: Floats
+    material_ids: Integers
+    dimensions: Floats
+    hollow: Bools
+    mesh_ids: Integers
+    names: Sequence[str | None] | None = None
+
+
+@dataclass(slots=True, kw_only=True)
+class JointColumns:
+    """Joints by column, one row a joint; both what a World gives and `extend_joints` takes.
+
+    Only `bodies` is always needed. What is None has the default of `World.attach_joint`: frames
+    at the centres of the bodies, all axes locked, no springs, enabled, the next free system ids.
+    """
+
+    bodies: Integers
+    """(n, 2) system ids of top-level bodies, 0 for the world."""
+    sids: Integers | None = None
+    """(n,) system ids of the joints."""
+    uids: Integers | None = None
+    """(n,) user ids."""
+    positions: Floats | None = None
+    """(n, 2, 3) origins of the frames, relative to each of the bodies."""
+    orientations: Floats | None = None
+    """(n, 2, 4) quaternions of the frames (w, x, y, z)."""
+    linear_limits: Floats | None = None
+    """(n, 2, 3) lower and upper limits along x, y, z of the first frame, ±inf for none."""
+    angular_limits: Floats | None = None
+    """(n, 2, 3) the same about the axes, in radians."""
+    linear_springs: Floats | None = None
+    """(n, 3) stiffness, damping, target length."""
+    angular_springs: Floats | None = None
+    """(n, 3) stiffness, damping, target angle in radians."""
+    enabled: Bools | None = None
+    """(n,) False for joints that do nothing at present."""
+    interpenetrate: Bools | None = None
+    """(n,) True where the two bodies do not collide with each other."""
+    names: Sequence[str | None] | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any, TypedDict, Unpack
 
 import numpy as np
@@ -9,12 +10,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from colladaphy.world import rotations, values
 from colladaphy.world.body import Body
-from colladaphy.world.columns import BodyColumns
-from colladaphy.world.creation import prepare, prepare_one
+from colladaphy.world.columns import BodyColumns, MemberColumns
+from colladaphy.world.creation import infinite_unions, prepare, prepare_members, prepare_one
 from colladaphy.world.kinds import Kind
 from colladaphy.world.materials import Material
-from colladaphy.world.meshes import Mesh
-from colladaphy.world.rules import COLUMNS, DIMENSION, MESH, SYSTEM_ID, refuse
+from colladaphy.world.meshes import Mesh, MeshSource, make_meshes
+from colladaphy.world.rules import COLUMNS, MESH, SYSTEM_ID, refuse
 from colladaphy.world.viewing import Viewing
 
 __all__ = ["BodyOptions", "Creating"]
@@ -61,7 +62,7 @@ class Creating(Viewing):
         **options: Unpack[BodyOptions],
     ) -> Body:
         """A box of full side lengths (3,)."""
-        row = (*_positives("side length", lengths, 3), 0.0)
+        row = (*values.positives("side length", lengths, 3), 0.0)
         return self._create(Kind.BOX, uid, position, row, material, options)
 
     def create_capsule(
@@ -77,7 +78,7 @@ class Creating(Viewing):
 
         `radius` is a number, or the semi-axes x (of the caps), y and z.
         """
-        radii = _positives("radius", radius, 3)
+        radii = values.positives("radius", radius, 3)
         row = (*radii, values.positive("length", length))
         return self._create(Kind.CAPSULE, uid, position, row, material, options)
 
@@ -91,7 +92,7 @@ class Creating(Viewing):
         **options: Unpack[BodyOptions],
     ) -> Body:
         """A cylinder along x. `radius` is a number, or the semi-axes y and z."""
-        radii = _positives("radius", radius, 2)
+        radii = values.positives("radius", radius, 2)
         row = (0.0, *radii, values.positive("length", length))
         return self._create(Kind.CYLINDER, uid, position, row, material, options)
 
@@ -104,7 +105,7 @@ class Creating(Viewing):
         **options: Unpack[BodyOptions],
     ) -> Body:
         """An ellipsoid of semi-axes (3,)."""
-        row = (*_positives("radius", radii, 3), 0.0)
+        row = (*values.positives("radius", radii, 3), 0.0)
         return self._create(Kind.ELLIPSOID, uid, position, row, material, options)
 
     def create_plane(
@@ -161,6 +162,25 @@ class Creating(Viewing):
         row = (0.0, 0.0, 0.0, 0.0)
         return self._create(Kind.MESH, uid, position, row, material, options, mesh.id)
 
+    def add_meshes(self, sources: Sequence[MeshSource], ids: ArrayLike | None = None) -> list[Mesh]:
+        """Add many meshes at once: of each the vertices, the faces and whether it is convex.
+
+        Either all are added or, on WorldError, none.
+        """
+        count = len(sources)
+        if ids is None:
+            first = max(self.meshes, default=-1) + 1
+            numbers = list(range(first, first + count))
+        else:
+            numbers = values.column("ids", ids, np.int64, (count,)).tolist()
+        if len(set(numbers)) < count or not self.meshes.keys().isdisjoint(numbers) or (
+            min(numbers, default=0) < 0
+        ):  # fmt: skip
+            raise refuse(MESH, "The ids of meshes are different, new and not negative.")
+        made = make_meshes(sources, numbers)
+        self.meshes.update(zip(numbers, made, strict=True))
+        return made
+
     def add_mesh(
         self, vertices: ArrayLike, faces: ArrayLike, *, convex: bool = False, id: int | None = None
     ) -> Mesh:
@@ -172,40 +192,41 @@ class Creating(Viewing):
         self.meshes[number] = mesh
         return mesh
 
-    def extend(self, columns: BodyColumns) -> NDArray[np.int64]:
-        """Create many primitives at once; returns their system ids (n,).
+    def extend(
+        self, columns: BodyColumns, members: MemberColumns | None = None
+    ) -> NDArray[np.int64]:
+        """Create many bodies at once; returns their system ids (n,).
 
-        Either all are created or, on WorldError, none. Quaternions and normals have to be of
-        length one.
+        With `members`, some of the bodies may be unions, of the members whose parents they are,
+        and members may be unions too. Either all are created or, on WorldError, none. Quaternions
+        and normals have to be of length one.
         """
-        filled = prepare(columns, self.materials, self.meshes)
+        filled = prepare(columns, self.materials, self.meshes, unions=members is not None)
         count = len(filled["kinds"])
-        sids = self._system_ids_for(columns.sids, count)
-        if columns.names is not None:
-            if len(columns.names) != count:
-                raise refuse(COLUMNS, f"There are {len(columns.names)} names for {count} bodies.")
-            pairs = zip(sids.tolist(), columns.names, strict=True)
-            self.names.update((sid, name) for sid, name in pairs if name is not None)
+        if members is None:
+            sids = new_system_ids(columns.sids, count, self.next_body_sid, self.__contains__)
+            names = names_of(sids, columns.names)
+        else:
+            inner = prepare_members(members, self.materials, self.meshes)
+            if columns.sids is None:
+                raise refuse(COLUMNS, "Bodies beside members of unions need the column sids.")
+            given = [
+                values.column("sids", columns.sids, np.int64, (count,)),
+                values.column("sids", members.sids, np.int64, (len(inner["kinds"]),)),
+            ]
+            every = np.concatenate(given)
+            every = new_system_ids(every, len(every), self.next_body_sid, self.__contains__)
+            sids, inner_sids = every[:count], every[count:]
+            filled["fixed"] = filled["fixed"] | infinite_unions(sids, filled, inner_sids, inner)
+            names = {**names_of(sids, columns.names), **names_of(inner_sids, members.names)}
+            self.inner.extend(inner_sids, inner)
+            self.children.update(_children(inner["parents"], inner_sids))
+            if len(inner_sids):
+                self.next_body_sid = max(self.next_body_sid, int(inner_sids.max()) + 1)
+        self.names.update(names)
         self.top.extend(sids, filled)
         if count:
             self.next_body_sid = max(self.next_body_sid, int(sids.max()) + 1)
-        return sids
-
-    def _system_ids_for(self, given: Any, count: int) -> NDArray[np.int64]:
-        if given is None:
-            return np.arange(self.next_body_sid, self.next_body_sid + count, dtype=np.int64)
-        sids = np.asarray(given, dtype=np.int64)
-        if sids.shape != (count,):
-            raise refuse(COLUMNS, f"The column sids has the shape {sids.shape}, not {(count,)}.")
-        if count == 0:
-            return sids
-        ascending = bool(np.all(sids[1:] > sids[:-1]))
-        if sids.min() < 1 or not (ascending or len(np.unique(sids)) == count):
-            raise refuse(SYSTEM_ID, "System ids are positive and differ from each other.")
-        if sids.min() < self.next_body_sid:
-            used = [sid for sid in sids[sids < self.next_body_sid].tolist() if sid in self]
-            if used:
-                raise refuse(SYSTEM_ID, f"The system id {used[0]} is in use.")
         return sids
 
     def claim_sid(self, sid: int | None) -> int:
@@ -256,9 +277,46 @@ class Creating(Viewing):
         return self.handle(sid)
 
 
-def _positives(what: str, given: ArrayLike, count: int) -> list[float]:
-    """One number an axis; a single one stands for all."""
-    array = np.asarray(given, dtype=object)
-    if array.shape not in ((), (count,)):
-        raise refuse(DIMENSION, f"A {what} is needed for each of {count} axes, not {given!r}.")
-    return [values.positive(what, number) for number in np.broadcast_to(array, (count,)).tolist()]
+def new_system_ids(
+    given: Any, count: int, following: int, is_used: Callable[[int], bool]
+) -> NDArray[np.int64]:
+    """System ids (n,) for new rows: the next ones, or those given, if they are free."""
+    if given is None:
+        return np.arange(following, following + count, dtype=np.int64)
+    sids = values.column("sids", given, np.int64, (count,))
+    if count == 0:
+        return sids
+    ascending = bool(np.all(sids[1:] > sids[:-1]))
+    if sids.min() < 1 or sids.max() == 2**63 - 1 or not (
+        ascending or len(np.unique(sids)) == count
+    ):  # fmt: skip
+        raise refuse(SYSTEM_ID, "System ids are positive and differ from each other.")
+    if sids.min() < following:
+        for sid in sids[sids < following].tolist():
+            if is_used(sid):
+                raise refuse(SYSTEM_ID, f"The system id {sid} is in use.")
+    return sids
+
+
+def names_of(sids: NDArray[np.int64], names: Sequence[str | None] | None) -> dict[int, str]:
+    if names is None:
+        return {}
+    if len(names) != len(sids):
+        raise refuse(COLUMNS, f"There are {len(names)} names for {len(sids)} rows.")
+    pairs = zip(sids.tolist(), names, strict=True)
+    return {sid: values.text("name", name) for sid, name in pairs if name is not None}
+
+
+def _children(
+    parents: NDArray[np.int64], sids: NDArray[np.int64]
+) -> Iterator[tuple[int, tuple[int, ...]]]:
+    """Each union and its members, which stand in their order."""
+    if not len(parents):
+        return
+    order = np.argsort(parents, kind="stable")
+    parents, listed = parents[order], sids[order].tolist()
+    starts = np.flatnonzero(np.diff(parents, prepend=0)).tolist()
+    for union, start, stop in zip(
+        parents[starts].tolist(), starts, [*starts[1:], len(listed)], strict=True
+    ):
+        yield union, tuple(listed[start:stop])

@@ -1,4 +1,4 @@
-"""From columns that a caller gives to complete, checked columns of primitives."""
+"""From columns that a caller gives to complete, checked columns of bodies."""
 
 from __future__ import annotations
 
@@ -9,144 +9,221 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.world import rotations
-from colladaphy.world.columns import BODY_FIELDS, BodyColumns
+from colladaphy.world import values as checks
+from colladaphy.world.columns import BODY_FIELDS, MEMBER_FIELDS, BodyColumns, MemberColumns
 from colladaphy.world.kinds import Kind
+from colladaphy.world.masses import distinct, mass_and_inertia, rows_of, sized_kinds
 from colladaphy.world.materials import Materials
 from colladaphy.world.meshes import Mesh
 from colladaphy.world.rules import (
+    ARGUMENT,
     COLUMNS,
     DIMENSION,
     INERTIA,
     MASS,
-    MATERIAL_UNKNOWN,
     MESH,
     NUMBER,
+    UNION_MEMBERS,
     refuse,
 )
-from colladaphy.world.shapes import COUNTS, NEEDED, solid_inertia, solid_volume
-from colladaphy.world.surfaces import hollow_moments
+from colladaphy.world.shapes import COUNTS, NEEDED, principal_inertia, volume
+from colladaphy.world.table import Field
 
-__all__ = ["mass_and_inertia", "prepare", "prepare_one"]
+__all__ = ["prepare", "prepare_members", "prepare_one"]
 
 Array = NDArray[Any]
 
-_PLANE, _MESH = int(Kind.PLANE), int(Kind.MESH)  # numpy is slow to compare with an enumeration
+_PLANE, _MESH, _UNION = int(Kind.PLANE), int(Kind.MESH), int(Kind.UNION)
 
 _NO_MASS = "Volume times density is out of the range of numbers."
 _NO_INERTIA = "The inertia of a shape is out of the range of numbers."
-_DEFAULTS: Mapping[str, float] = {"mesh_ids": -1}
 _FINITE = ("positions", "orientations", "linear_velocities", "angular_velocities", "forces",
            "torques")  # fmt: skip
 
 
 def prepare(
-    columns: BodyColumns, materials: Materials, meshes: Mapping[int, Mesh]
+    columns: BodyColumns, materials: Materials, meshes: Mapping[int, Mesh], *, unions: bool = False
 ) -> dict[str, Array]:
-    """Complete and check columns of primitives (all but the system ids and names)."""
-    kinds = np.asarray(columns.kinds)
-    if kinds.ndim != 1:
-        raise refuse(COLUMNS, "The column kinds has one number a body.")
-    if len(kinds) and (kinds.min() < 0 or kinds.max() >= Kind.UNION):
-        raise refuse(COLUMNS, "Only primitives are made from columns; unions join them later.")
-    count = len(kinds)
-    values: dict[str, Array] = {}
-    for name, (dtype, shape) in BODY_FIELDS.items():
-        given = getattr(columns, name)
-        if given is None:
-            values[name] = np.full((count, *shape), _DEFAULTS.get(name, 0), dtype=dtype)
-            continue
-        array = np.asarray(given)
-        if array.shape != (count, *shape):
-            raise refuse(
-                COLUMNS, f"The column {name} has the shape {array.shape}, not {(count, *shape)}."
-            )
-        values[name] = array.astype(dtype, copy=False)
-    for name in _FINITE:
-        if not np.all(np.isfinite(values[name])):
-            raise refuse(NUMBER, f"The column {name} holds numbers that are not finite.")
-    _check_dimensions(values)
-    _check_references(values, materials, meshes)
-    _place(values, columns)
-    values["fixed"] = values["fixed"] | (values["kinds"] == _PLANE)
-    _weigh(values, columns, materials, meshes)
+    """Complete and check columns of bodies (all but the system ids and names).
+
+    What nobody gave and is zero is left out. Only with `unions` may some of them be unions; what
+    they are made of is for `prepare_members` to check.
+    """
+    if not isinstance(columns, BodyColumns):
+        raise refuse(ARGUMENT, f"Bodies are made of BodyColumns, not of {type(columns).__name__}.")
+    values = _given(columns, BODY_FIELDS)
+    kinds = values["kinds"]
+    count, united = len(kinds), kinds == _UNION
+    if united.any():
+        if not unions:
+            raise refuse(COLUMNS, "Unions are made from columns together with their members.")
+        for name in ("positions", "orientations", "masses", "inertias"):
+            if name not in values:
+                raise refuse(COLUMNS, f"Rows of unions need the column {name}.")
+    values.setdefault("dimensions", np.zeros((count, 4)))
+    values.setdefault("hollow", np.zeros(count, dtype=np.bool_))
+    values.setdefault("material_ids", np.where(united, -1, 0))
+    values.setdefault("mesh_ids", np.full(count, -1))
+    _check(values, materials, meshes)
+    _place(values)
+    planes = kinds == _PLANE
+    values["fixed"] = values["fixed"] | planes if "fixed" in values else planes
+    _weigh(values, materials, meshes)
     return values
 
 
-def _check_dimensions(values: dict[str, Array]) -> None:
-    kinds, dimensions = values["kinds"], values["dimensions"]
-    for kind in _sized_kinds(kinds):
-        needed, rows = NEEDED[kind], kinds == int(kind)
-        sizes = dimensions[rows][:, needed]
-        good = (sizes > 0) & (sizes < np.inf)
-        if not good.all():
-            bad = sizes[~good.all(axis=1)][0].tolist()
-            raise refuse(
-                DIMENSION, f"The {COUNTS[kind]} of a {kind.name.lower()} are {bad}: "
-                "all have to be positive.",
-            )  # fmt: skip
-        others = [column for column in range(4) if column not in needed]
-        if dimensions[rows][:, others].any():
-            raise refuse(
-                DIMENSION, f"Dimensions that a {kind.name.lower()} does not have are not zero."
-            )
+def prepare_members(
+    members: MemberColumns, materials: Materials, meshes: Mapping[int, Mesh]
+) -> dict[str, Array]:
+    """Check columns of members of unions (all but the system ids and names)."""
+    if not isinstance(members, MemberColumns):
+        raise refuse(ARGUMENT, f"Members are MemberColumns, not {type(members).__name__}.")
+    values = _given(members, MEMBER_FIELDS)
+    for name in MEMBER_FIELDS:
+        if name not in values:
+            raise refuse(COLUMNS, f"Members of unions need the column {name}.")
+    _check(values, materials, meshes)
+    return values
+
+
+def infinite_unions(
+    sids: Array, values: dict[str, Array], member_sids: Array, members: dict[str, Array]
+) -> Array:
+    """Which rows are infinite unions (n,), as they hold a plane; WorldError unless all fit."""
+    every = np.concatenate([sids, member_sids])
+    kinds = np.concatenate([values["kinds"], members["kinds"]])
+    order = np.argsort(every, kind="stable")
+    places = np.minimum(np.searchsorted(every, members["parents"], sorter=order), len(every) - 1)
+    parents = np.concatenate([np.full(len(sids), -1), order[places] if len(every) else places])
+    given = members["parents"]
+    bad = np.flatnonzero(
+        (every[parents[len(sids) :]] != given) | (kinds[parents[len(sids) :]] != _UNION)
+    )
+    if len(bad):
+        raise refuse(UNION_MEMBERS, f"There is no union {given[bad[0]]} among the columns.")
+    empty = kinds == _UNION
+    empty[parents[len(sids) :]] = False
+    if empty.any():
+        raise refuse(UNION_MEMBERS, f"The union {every[empty][0]} has no members.")
+    above = parents
+    for _ in range(len(every).bit_length()):  # twice as far up each time
+        above = np.where(above < 0, -1, above[above])
+    if np.any(above >= 0):
+        raise refuse(UNION_MEMBERS, f"The union {every[above >= 0][0]} is a member of itself.")
+    infinite = np.zeros(len(every), dtype=np.bool_)
+    level = np.unique(parents[(kinds == _PLANE) & (parents >= 0)])
+    while len(level):
+        infinite[level] = True
+        level = np.unique(parents[level])
+        level = level[(level >= 0) & ~infinite[level]]
+    return infinite[: len(sids)]
+
+
+def _given(source: BodyColumns | MemberColumns, fields: Mapping[str, Field]) -> dict[str, Array]:
+    """The columns that are given, of the right types and shapes."""
+    try:
+        kinds = np.asarray(source.kinds)
+    except ValueError as error:
+        raise refuse(COLUMNS, "The column kinds has one number a body.") from error
+    if kinds.ndim != 1 or (len(kinds) and kinds.dtype.kind not in "iu"):
+        raise refuse(COLUMNS, "The column kinds has one number a body.")
+    if len(kinds) and (kinds.min() < 0 or kinds.max() > _UNION):
+        raise refuse(COLUMNS, "The column kinds holds a number that is none of Kind.")
+    values: dict[str, Array] = {}
+    for name, (dtype, shape) in fields.items():
+        given = getattr(source, name)
+        if given is not None:
+            values[name] = checks.column(name, given, dtype, (len(kinds), *shape))
+    return values
+
+
+def _check(values: dict[str, Array], materials: Materials, meshes: Mapping[int, Mesh]) -> None:
+    for name in _FINITE:
+        if name in values and not np.all(np.isfinite(values[name])):
+            raise refuse(NUMBER, f"The column {name} holds numbers that are not finite.")
+    if "orientations" in values and not np.all(np.any(values["orientations"] != 0, axis=1)):
+        raise refuse(NUMBER, "An orientation is a quaternion of length zero.")
+    masses, inertias = values.get("masses"), values.get("inertias")
+    if masses is not None and not (np.all(masses >= 0) and np.all(masses < np.inf)):
+        raise refuse(MASS, "The column masses holds numbers that are negative or not finite.")
+    if inertias is not None and not np.all(np.isfinite(inertias)):
+        raise refuse(INERTIA, "The column inertias holds numbers that are not finite.")
+    _check_dimensions(values["kinds"], values["dimensions"])
+    _check_references(values, materials, meshes)
+
+
+def _check_dimensions(kinds: Array, dimensions: Array) -> None:
+    for kind in sized_kinds(kinds):
+        rows = rows_of(kinds, kind)
+        sizes = dimensions[rows]
+        for column in range(4):
+            size = sizes[:, column]
+            if column not in NEEDED[kind]:
+                if size.any():
+                    raise refuse(
+                        DIMENSION,
+                        f"Dimensions that a {kind.name.lower()} does not have are not zero.",
+                    )
+            elif not np.all((size > 0) & (size < np.inf)):
+                row = np.flatnonzero(~((size > 0) & (size < np.inf)))[0]
+                bad = sizes[row, list(NEEDED[kind])].tolist()
+                raise refuse(
+                    DIMENSION, f"The {COUNTS[kind]} of a {kind.name.lower()} are {bad}: "
+                    "all have to be positive.",
+                )  # fmt: skip
     planes = dimensions[kinds == _PLANE]
     if not np.all(np.isfinite(planes)) or not np.all(np.any(planes[:, :3] != 0, axis=1)):
         raise refuse(DIMENSION, "The normal of a plane is zero or not finite.")
+    if dimensions[(kinds == _MESH) | (kinds == _UNION)].any():
+        raise refuse(DIMENSION, "A mesh or a union has dimensions that are not zero.")
 
 
 def _check_references(
     values: dict[str, Array], materials: Materials, meshes: Mapping[int, Mesh]
 ) -> None:
-    for id in _distinct(values["material_ids"])[0].tolist():
-        if id not in materials:
-            raise refuse(MATERIAL_UNKNOWN, f"There is no material with the id {id}.")
-    is_mesh = values["kinds"] == _MESH
-    for id in _distinct(values["mesh_ids"][is_mesh])[0].tolist():
+    kinds, material_ids, mesh_ids = values["kinds"], values["material_ids"], values["mesh_ids"]
+    united = kinds == _UNION
+    if united.any():
+        if np.any(material_ids[united] != -1) or np.any(values["hollow"][united]):
+            raise refuse(COLUMNS, "A union has a material, or is hollow: its members are.")
+        material_ids = material_ids[~united]
+    materials.rows(distinct(material_ids)[0])
+    is_mesh = kinds == _MESH
+    for id in distinct(mesh_ids[is_mesh])[0].tolist():
         if id not in meshes:
             raise refuse(MESH, f"There is no mesh with the id {id}.")
-    if np.any(values["mesh_ids"][~is_mesh] != -1):
+    if np.any(mesh_ids[~is_mesh] != -1):
         raise refuse(MESH, "A body that is not a mesh refers to one.")
 
 
-def _place(values: dict[str, Array], columns: BodyColumns) -> None:
+def _place(values: dict[str, Array]) -> None:
     """Poses that were not given."""
     planes = np.flatnonzero(values["kinds"] == _PLANE)
     normals = values["dimensions"][planes, :3]
-    if columns.positions is None and len(planes):
+    if "positions" not in values and len(planes):
+        values["positions"] = np.zeros((len(values["kinds"]), 3))
         values["positions"][planes] = normals * values["dimensions"][planes, 3:]
-    if columns.orientations is None:
+    if "orientations" not in values:
+        values["orientations"] = np.zeros((len(values["kinds"]), 4))
         values["orientations"][:, 0] = 1.0
         for row, normal in zip(planes.tolist(), normals, strict=True):
             values["orientations"][row] = rotations.between((0.0, 0.0, 1.0), normal)
-    elif not np.all(np.any(values["orientations"] != 0, axis=1)):
-        raise refuse(NUMBER, "An orientation is a quaternion of length zero.")
 
 
-def _weigh(
-    values: dict[str, Array],
-    columns: BodyColumns,
-    materials: Materials,
-    meshes: Mapping[int, Mesh],
-) -> None:
-    masses, inertias = values["masses"], values["inertias"]
-    if columns.masses is not None and not (np.all(masses >= 0) and np.all(masses < np.inf)):
-        raise refuse(MASS, "The column masses holds numbers that are negative or not finite.")
-    if columns.inertias is not None and not np.all(np.isfinite(inertias)):
-        raise refuse(INERTIA, "The column inertias holds numbers that are not finite.")
-    if columns.masses is not None and columns.inertias is not None:
+def _weigh(values: dict[str, Array], materials: Materials, meshes: Mapping[int, Mesh]) -> None:
+    """Masses and inertias that were not given."""
+    if "masses" in values and "inertias" in values:
         return
-    got_masses, got_inertias = mass_and_inertia(
-        values, masses if columns.masses is not None else None, materials, meshes
-    )
-    if columns.masses is None:
-        finite = values["kinds"] != Kind.PLANE
-        if not np.all((got_masses[finite] > 0) & (got_masses[finite] < np.inf)):
+    masses, inertias = mass_and_inertia(values, values.get("masses"), materials, meshes)
+    if "masses" not in values:
+        weighty = (masses > 0) & (masses < np.inf)
+        if not np.all(weighty | (values["kinds"] == _PLANE)):
             raise refuse(MASS, _NO_MASS)
-        values["masses"] = got_masses
-    if columns.inertias is None:
-        if not np.all(np.isfinite(got_inertias)):
+        values["masses"] = masses
+    if "inertias" not in values:
+        if not np.all(np.isfinite(inertias)):
             raise refuse(INERTIA, _NO_INERTIA)
-        values["inertias"] = got_inertias
+        values["inertias"] = inertias
 
 
 def prepare_one(
@@ -159,73 +236,14 @@ def prepare_one(
             setattr(columns, key, np.asarray(value)[None])
         return {key: value[0] for key, value in prepare(columns, materials, meshes).items()}
     mass, inertia = given.get("masses"), given.get("inertias")
-    sizes = np.array([given["dimensions"]])
-    with np.errstate(all="ignore"):
-        if mass is None:
-            mass = solid_volume(kind, sizes)[0] * materials[given["material_ids"]].density
-            if not 0.0 < mass < np.inf:
-                raise refuse(MASS, _NO_MASS)
-        if inertia is None:
-            inertia = np.diag(solid_inertia(kind, sizes, np.array([mass]))[0])
-            if not np.isfinite(inertia).all():
-                raise refuse(INERTIA, _NO_INERTIA)
-    return {**given, "kinds": kind, "masses": mass, "inertias": inertia}
-
-
-def mass_and_inertia(
-    values: Mapping[str, Array],
-    masses: Array | None,
-    materials: Materials,
-    meshes: Mapping[int, Mesh],
-) -> tuple[Array, Array]:
-    """Masses (n,), computed unless given, and inertias (n, 3, 3) of primitives."""
-    kinds, dimensions = values["kinds"], values["dimensions"]
-    count = len(kinds)
-    out_masses = np.zeros(count) if masses is None else masses
-    inertias = np.zeros((count, 3, 3))
-    densities = _densities(values["material_ids"], materials) if masses is None else None
-    diagonal = np.arange(3)
-    with np.errstate(all="ignore"):
-        for kind in _sized_kinds(kinds):
-            rows = np.flatnonzero(kinds == int(kind))
-            if densities is not None:
-                out_masses[rows] = solid_volume(kind, dimensions[rows]) * densities[rows]
-            inertias[rows[:, None], diagonal, diagonal] = solid_inertia(
-                kind, dimensions[rows], out_masses[rows]
-            )
-            for row in rows[values["hollow"][rows]].tolist():
-                mean = hollow_moments(kind, tuple(dimensions[row].tolist()))
-                inertias[row, diagonal, diagonal] = out_masses[row] * (mean.sum() - mean)
-        for row in np.flatnonzero(kinds == _MESH).tolist():
-            mesh = meshes[int(values["mesh_ids"][row])]
-            if densities is not None:
-                out_masses[row] = mesh.volume * densities[row]
-            mass = float(out_masses[row])
-            hollow = bool(values["hollow"][row])
-            inertias[row] = mesh.hollow_inertia(mass) if hollow else mesh.inertia(mass)
-    return out_masses, inertias
-
-
-def _sized_kinds(kinds: Array) -> list[Kind]:
-    """The kinds with dimensions that there are."""
-    return [
-        kind for kind in map(Kind, np.flatnonzero(np.bincount(kinds)).tolist()) if kind in NEEDED
-    ]
-
-
-def _densities(ids: Array, materials: Materials) -> Array:
-    used, where = _distinct(ids)
-    return np.array([materials[id].density for id in used.tolist()])[where]
-
-
-def _distinct(ids: Array) -> tuple[Array, Array]:
-    """The different ids, and which of them each one is."""
-    low, high = (int(ids.min()), int(ids.max())) if len(ids) else (0, 0)
-    if high - low > 2 * len(ids):
-        return np.unique(ids, return_inverse=True)
-    # Close together, as they mostly are: counting is faster than sorting.
-    offsets = ids - low
-    used = np.flatnonzero(np.bincount(offsets))
-    places = np.zeros(high - low + 1, dtype=np.int64)
-    places[used] = np.arange(len(used))
-    return used + low, places[offsets]
+    sizes = given["dimensions"]
+    if mass is None:
+        mass = volume(kind, *sizes) * materials[given["material_ids"]].density
+        if not 0.0 < mass < np.inf:
+            raise refuse(MASS, _NO_MASS)
+    if inertia is None:
+        x, y, z = principal_inertia(kind, mass, *sizes)
+        if not (abs(x) < np.inf and abs(y) < np.inf and abs(z) < np.inf):
+            raise refuse(INERTIA, _NO_INERTIA)
+        inertia = ((x, 0.0, 0.0), (0.0, y, 0.0), (0.0, 0.0, z))
+    return {**given, "kinds": int(kind), "masses": mass, "inertias": inertia}

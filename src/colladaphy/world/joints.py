@@ -15,10 +15,18 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colladaphy.world import values
+from colladaphy.world import rotations, values
+from colladaphy.world.columns import JOINT_FIELDS, JointColumns
 from colladaphy.world.kinds import JointKind
-from colladaphy.world.rules import BODY_GONE, JOINT_VALUE, refuse
-from colladaphy.world.table import Field
+from colladaphy.world.rules import (
+    ARGUMENT,
+    BODY_GONE,
+    COLUMNS,
+    JOINT_BODIES,
+    JOINT_VALUE,
+    NUMBER,
+    refuse,
+)
 
 if TYPE_CHECKING:
     from colladaphy.world.body import Body
@@ -36,19 +44,6 @@ Spring = tuple[float, float, float]
 
 LOCKED: Final = (0.0, 0.0, 0.0)
 FREE: Final = (np.inf, np.inf, np.inf)
-
-JOINT_FIELDS: Final[dict[str, Field]] = {
-    "uids": (np.int64, ()),
-    "bodies": (np.int64, (2,)),
-    "positions": (np.float64, (2, 3)),
-    "orientations": (np.float64, (2, 4)),
-    "linear_limits": (np.float64, (2, 3)),
-    "angular_limits": (np.float64, (2, 3)),
-    "linear_springs": (np.float64, (3,)),
-    "angular_springs": (np.float64, (3,)),
-    "enabled": (np.bool_, ()),
-    "interpenetrate": (np.bool_, ()),
-}
 
 
 class Joint:
@@ -244,3 +239,34 @@ def spring(what: str, value: Spring | None) -> Floats:
     if array.shape != (3,) or not np.all(np.isfinite(array)):
         raise refuse(JOINT_VALUE, f"The {what} spring is {value!r}.")
     return array
+
+
+def prepare_joints(columns: JointColumns) -> dict[str, NDArray[Any]]:
+    """Check columns of joints (all but the system ids and names), and complete them."""
+    if not isinstance(columns, JointColumns):
+        raise refuse(ARGUMENT, f"Joints are JointColumns, not {type(columns).__name__}.")
+    try:
+        count = len(columns.bodies)
+    except TypeError as error:
+        raise refuse(COLUMNS, "The column bodies has two numbers a joint.") from error
+    filled: dict[str, NDArray[Any]] = {}
+    for name, (dtype, shape) in JOINT_FIELDS.items():
+        given = getattr(columns, name)
+        if given is not None:
+            filled[name] = values.column(name, given, dtype, (count, *shape))
+    filled.setdefault("enabled", np.ones(count, dtype=np.bool_))
+    filled.setdefault("orientations", np.tile(rotations.IDENTITY, (count, 2, 1)))
+    if np.any(filled["bodies"][:, 0] == filled["bodies"][:, 1]):
+        raise refuse(JOINT_BODIES, "A joint binds a body to itself.")
+    for name in ("positions", "orientations"):
+        if name in filled and not np.all(np.isfinite(filled[name])):
+            raise refuse(NUMBER, f"The column {name} holds numbers that are not finite.")
+    if not np.all(np.any(filled["orientations"] != 0, axis=2)):
+        raise refuse(NUMBER, "An orientation is a quaternion of length zero.")
+    for name in ("linear_limits", "angular_limits"):
+        if name in filled and np.any(np.isnan(filled[name])):
+            raise refuse(JOINT_VALUE, f"The column {name} holds what is not a number.")
+    for name in ("linear_springs", "angular_springs"):
+        if name in filled and not np.all(np.isfinite(filled[name])):
+            raise refuse(JOINT_VALUE, f"The column {name} holds numbers that are not finite.")
+    return filled

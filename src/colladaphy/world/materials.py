@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any, TypedDict, Unpack
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from colladaphy.world import values as checks
 from colladaphy.world.rules import (
     MATERIAL_NAME,
     MATERIAL_UNKNOWN,
     MATERIAL_VALUE,
     refuse,
 )
+from colladaphy.world.table import Table
 
-__all__ = ["Material", "MaterialPair", "Materials", "PairOverride"]
+__all__ = ["Material", "MaterialPair", "MaterialValues", "Materials", "PairOverride"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -91,20 +99,37 @@ _DEFAULTS = (
 )
 
 
+class MaterialValues(TypedDict):
+    """The numbers of a material."""
+
+    density: float
+    restitution: float
+    static_friction: float
+    dynamic_friction: float
+    poisson_ratio: float
+    young_modulus: float
+    stiffness: float
+    damping_normal: float
+    damping_tangential: float
+
+
 class Materials:
     """The materials of a World, by name and by id, in the order of their ids.
 
     The five of pe come first (ids 0 to 4); custom ones follow. Ids may have gaps, as a file
-    keeps only the materials that are used (thesis 5.4).
+    keeps only the materials that are used (thesis 5.4). The numbers are kept by column, and a
+    `Material` is made when it is first asked for.
     """
 
-    __slots__ = ("_by_id", "_by_name", "_next_id", "_overrides")
+    __slots__ = ("_ids", "_made", "_names", "_next_id", "_overrides", "_table")
 
     DEFAULT_COUNT = len(_DEFAULTS)
 
     def __init__(self) -> None:
-        self._by_id: dict[int, Material] = {}
-        self._by_name: dict[str, Material] = {}
+        self._table = Table(dict.fromkeys(VALUES, (np.float64, ())))
+        self._ids: dict[str, int] = {}
+        self._names: dict[int, str] = {}
+        self._made: dict[int, Material] = {}
         self._next_id = 0
         self._overrides: dict[tuple[int, int], PairOverride] = {}
         for name, density, poisson, young in _DEFAULTS:
@@ -121,61 +146,138 @@ class Materials:
                 damping_tangential=0.0,
             )
 
-    def create(self, name: str, *, id: int | None = None, **values: float) -> Material:
+    def create(
+        self, name: str, *, id: int | None = None, **values: Unpack[MaterialValues]
+    ) -> Material:
         """Add a material; values are checked against pe's ranges (WorldError)."""
-        if name in self._by_name:
+        name = checks.text("name of the material", name)
+        if name in self._ids:
             raise refuse(MATERIAL_NAME, f"There is a material named {name!r} already.")
         if id is None:
             id = self._next_id
-        elif id in self._by_id or id < 0:
-            raise refuse(MATERIAL_NAME, f"The material id {id} is in use, or negative.")
-        numbers = {key: float(value) for key, value in values.items()}
-        for key in VALUES:
-            check_value(name, key, numbers[key])
-        material = Material(id=id, name=str(name), **numbers)
-        self._by_id[id] = material
+        id = checks.integer("material id", id, MATERIAL_NAME)
+        if id in self._names or not 0 <= id < 2**63 - 1:
+            raise refuse(MATERIAL_NAME, f"The material id {id} is in use, or out of range.")
+        given: Mapping[str, Any] = values
+        numbers = {key: check_value(name, key, given[key]) for key in VALUES}
+        self._table.append(id, numbers)
+        self._ids[name], self._names[id] = id, name
         self._next_id = max(self._next_id, id + 1)
-        self._by_name[material.name] = material
-        return material
+        return self[id]
+
+    def extend(
+        self, names: Sequence[str], values: Mapping[str, ArrayLike], ids: ArrayLike | None = None
+    ) -> NDArray[np.int64]:
+        """Add many materials at once; returns their ids (n,).
+
+        `values` has (n,) numbers for each of `VALUES`. Either all are added or, on WorldError,
+        none.
+        """
+        texts = [checks.text("name of a material", name) for name in names]
+        count = len(texts)
+        if len(set(texts)) < count or not self._ids.keys().isdisjoint(texts):
+            counts = Counter([*self._ids, *texts])
+            twice = next(name for name in texts if counts[name] > 1)
+            raise refuse(MATERIAL_NAME, f"There is a material named {twice!r} already.")
+        if ids is None:
+            numbers = np.arange(self._next_id, self._next_id + count, dtype=np.int64)
+        else:
+            numbers = checks.column("ids", ids, np.int64, (count,))
+            used = [id for id in numbers.tolist() if id in self._names or not 0 <= id < 2**63 - 1]
+            if used or len(np.unique(numbers)) < count:
+                which = f"{used[0]} is in use, or out of range" if used else "s are not different"
+                raise refuse(MATERIAL_NAME, f"The material id {which}.")
+        columns = {}
+        for key in VALUES:
+            if key not in values:
+                raise refuse(MATERIAL_VALUE, f"The materials have no {key}.")
+            column = columns[key] = checks.column(key, values[key], np.float64, (count,))
+            low, high, closed = _RANGES[key]
+            good = (column >= low) & (column <= high) if closed else (column > low)
+            bad = np.flatnonzero(~(good & np.isfinite(column)))
+            if len(bad):
+                check_value(texts[bad[0]], key, float(column[bad[0]]))
+        self._table.extend(numbers, columns)
+        listed = numbers.tolist()
+        self._ids.update(zip(texts, listed, strict=True))
+        self._names.update(zip(listed, texts, strict=True))
+        self._next_id = max(self._next_id, max(listed, default=-1) + 1)
+        return numbers
+
+    @property
+    def ids(self) -> NDArray[np.int64]:
+        """The ids of all materials (n,), ascending, read-only."""
+        return self._table.frozen("sids")
+
+    def values(self, key: str, ids: ArrayLike | None = None) -> NDArray[np.float64]:
+        """One of `VALUES` of many materials (n,), by id, or of all in the order of `ids`."""
+        if key not in VALUES:
+            raise refuse(MATERIAL_VALUE, f"Materials have no {key!r}, but {', '.join(VALUES)}.")
+        if ids is None:
+            return self._table.frozen(key)
+        rows = self.rows(ids)
+        return np.asarray(self._table.column(key)[rows])
+
+    def rows(self, ids: ArrayLike) -> NDArray[np.int64]:
+        """Where materials of given ids (n,) are in the order of `ids`; WorldError if nowhere."""
+        wanted = np.asarray(ids, dtype=np.int64)
+        rows = self._table.find_all(wanted)
+        missing = np.flatnonzero(rows < 0)
+        if len(missing):
+            raise refuse(
+                MATERIAL_UNKNOWN, f"There is no material with the id {wanted[missing[0]]}."
+            )
+        return rows
+
+    @property
+    def names(self) -> Mapping[int, str]:
+        """The names of all materials by id."""
+        return MappingProxyType(self._names)
 
     def copy(self) -> Materials:
         """The same materials and pairs, which change independently from now on."""
         twin = Materials.__new__(Materials)
-        twin._by_id = dict(self._by_id)
-        twin._by_name = dict(self._by_name)
+        twin._table = self._table.copy()
+        twin._ids, twin._names = dict(self._ids), dict(self._names)
+        twin._made, twin._overrides = dict(self._made), dict(self._overrides)
         twin._next_id = self._next_id
-        twin._overrides = dict(self._overrides)
         return twin
 
     def __getitem__(self, key: str | int) -> Material:
         """The material of a name or of an id; KeyError if there is none."""
-        return self._by_name[key] if isinstance(key, str) else self._by_id[key]
+        id = self._ids[key] if isinstance(key, str) else key
+        made = self._made.get(id)
+        if made is None:
+            name, row = self._names[id], self._table.find(int(id))
+            numbers = {value: float(self._table.raw(value)[row]) for value in VALUES}
+            made = self._made[int(id)] = Material(id=int(id), name=name, **numbers)
+        return made
 
     def __contains__(self, key: object) -> bool:
         if isinstance(key, Material):
-            return self._by_id.get(key.id) is key
-        return key in self._by_name or key in self._by_id
+            return self._made.get(key.id) is key
+        return key in self._ids if isinstance(key, str) else key in self._names
 
     def __iter__(self) -> Iterator[Material]:
         """All materials in the order of their ids."""
-        return iter([self._by_id[id] for id in sorted(self._by_id)])
+        return map(self.__getitem__, self.ids.tolist())
 
     def __len__(self) -> int:
-        return len(self._by_id)
+        return len(self._names)
 
     def resolve(self, material: Material | str | int) -> Material:
         """The material of this World that is meant, or WorldError."""
         if isinstance(material, Material):
-            if self._by_id.get(material.id) is material:
+            if self._made.get(material.id) is material:
                 return material
-        elif material in self:
+        elif isinstance(material, (str, int, np.integer)) and material in self:
             return self[material]
         name = material.name if isinstance(material, Material) else material
         raise refuse(MATERIAL_UNKNOWN, f"There is no material {name!r} in this World.")
 
     def by_id(self) -> dict[int, Material]:
         """All materials by id, as a new dictionary."""
-        return dict(self._by_id)
+        return {material.id: material for material in self}
 
     @property
     def overrides(self) -> tuple[PairOverride, ...]:
@@ -197,9 +299,11 @@ class Materials:
             "static_friction": static_friction,
             "dynamic_friction": dynamic_friction,
         }
-        given = {key: float(value) for key, value in values.items() if value is not None}
-        for key, value in given.items():
-            check_value(f"{first.name} with {second.name}", key, value)
+        given = {
+            key: check_value(f"{first.name} with {second.name}", key, value)
+            for key, value in values.items()
+            if value is not None
+        }
         if given:
             self._overrides[low, high] = PairOverride(low, high, **given)
         else:
@@ -247,9 +351,10 @@ def _series(first: float, second: float) -> float:
     return low / (1.0 + low / high) if low else 0.0
 
 
-def check_value(name: str, key: str, value: float) -> None:
-    """Raise WorldError if the value of a material is out of its range."""
+def check_value(name: str, key: str, value: float) -> float:
+    """The value of a material as a float; WorldError if it is out of its range."""
     low, high, closed = _RANGES[key]
-    if (low <= value <= high if closed else low < value <= high) and math.isfinite(value):
-        return
-    raise refuse(MATERIAL_VALUE, f"Material {name}: {key} is {value!r}.")
+    number = checks.number(f"{key} of material {name}", value, MATERIAL_VALUE)
+    if (low <= number <= high if closed else low < number <= high) and math.isfinite(number):
+        return number
+    raise refuse(MATERIAL_VALUE, f"Material {name}: {key} is {number!r}.")

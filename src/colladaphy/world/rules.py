@@ -6,6 +6,7 @@ from colladaphy.errors import WorldError
 from colladaphy.findings import Rule, Severity
 
 __all__ = [
+    "ARGUMENT",
     "BODY_GONE",
     "COLUMNS",
     "DIMENSION",
@@ -126,11 +127,18 @@ JOINT_VALUE = Rule(
     "Limits are three numbers each and never NaN; axes are not zero; springs are finite.",
     "thesis 4.5",
 )
+ARGUMENT = Rule(
+    "physics-argument",
+    Severity.ERROR,
+    "An argument is not of the type that is needed.",
+    "Names are texts, ids whole numbers, flags True or False; see the documentation of the call.",
+)
 COLUMNS = Rule(
     "physics-columns",
     Severity.ERROR,
-    "Columns of bodies do not fit together.",
-    "All columns of one call have one row a body and the shapes that BodyColumns names.",
+    "Columns of bodies or joints do not fit together.",
+    "All columns of one call have one row each, and the shapes that BodyColumns, MemberColumns "
+    "or JointColumns name.",
 )
 
 RULES = (
@@ -150,6 +158,7 @@ RULES = (
     JOINT_BODIES,
     JOINT_VALUE,
     COLUMNS,
+    ARGUMENT,
 )
 
 

@@ -22,27 +22,32 @@ Floats = NDArray[np.float64]
 _NODES = 96
 
 
-def hollow_moments(kind: Kind, dimensions: tuple[float, float, float, float]) -> Floats:
-    """Mean squares of x, y and z over the surface of a centred primitive, (3,).
+def hollow_moments(kind: Kind, dimensions: Floats) -> Floats:
+    """Mean squares of x, y and z over the surfaces of centred primitives of one kind, (n, 3).
 
-    The moment of inertia about x is mass·(mean y² + mean z²), and so on.
+    `dimensions` are (n, 4). The moment of inertia about x is mass·(mean y² + mean z²), and so on.
     """
-    scale = max(dimensions)
-    x, y, z, length = (value / scale for value in dimensions)
+    scale = dimensions.max(axis=1, keepdims=True)
+    sizes = dimensions / scale
+    if kind is Kind.SPHERE:
+        means = np.repeat(sizes[:, :1] * sizes[:, :1] / 3.0, 3, axis=1)
+    elif kind is Kind.BOX:
+        means = _boxes(sizes[:, :3])
+    else:
+        different, where = np.unique(sizes, axis=0, return_inverse=True)
+        means = np.array([_integrated(kind, *size) for size in different.tolist()])
+        means = means[where.reshape(-1)]
+    return np.asarray(means * scale * scale)
+
+
+def _integrated(kind: Kind, x: float, y: float, z: float, length: float) -> Floats:
     match kind:
-        case Kind.SPHERE:
-            mean = np.full(3, x * x / 3.0)
-        case Kind.BOX:
-            mean = _box(x, y, z)
         case Kind.ELLIPSOID:
-            mean = _weigh([_ellipsoid(x, y, z)])
+            return _weigh([_ellipsoid(x, y, z)])
         case Kind.CYLINDER:
-            mean = _weigh([_wall(y, z, length), _discs(y, z, length)])
-        case Kind.CAPSULE:
-            mean = _weigh([_wall(y, z, length), _caps(x, y, z, length)])
+            return _weigh([_wall(y, z, length), _discs(y, z, length)])
         case _:
-            mean = np.zeros(3)
-    return np.asarray(mean * scale * scale)
+            return _weigh([_wall(y, z, length), _caps(x, y, z, length)])
 
 
 Part = tuple[float, Floats]
@@ -54,10 +59,10 @@ def _weigh(parts: list[Part]) -> Floats:
     return np.asarray(sum(part[1] for part in parts) / area)
 
 
-def _box(x: float, y: float, z: float) -> Floats:
-    sides = np.array([x, y, z])
-    faces = np.array([y * z, x * z, x * y])  # the area of one face across each axis
-    area = 2.0 * faces.sum()
+def _boxes(sides: Floats) -> Floats:
+    x, y, z = sides.T
+    faces = np.stack([y * z, x * z, x * y], axis=1)  # the area of one face across each axis
+    area = 2.0 * faces.sum(axis=1, keepdims=True)
     squares = sides * sides
     # Over the two faces across an axis its square is side²/4, over the other four side²/12.
     return np.asarray((2.0 * faces * squares / 4.0 + (area - 2.0 * faces) * squares / 12.0) / area)

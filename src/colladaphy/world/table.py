@@ -42,8 +42,8 @@ class Table:
 
     @property
     def last_sid(self) -> int:
-        """The largest system id of the rows in order, 0 for none."""
-        return int(self._arrays["sids"][self._sorted - 1]) if self._sorted else 0
+        """The largest system id of the rows in order, -1 for none."""
+        return int(self._arrays["sids"][self._sorted - 1]) if self._sorted else -1
 
     def find(self, sid: int) -> int:
         """The row of a system id, -1 if there is none."""
@@ -55,6 +55,15 @@ class Table:
             if row < count and sids[row] == sid and self._alive[row]:
                 return row
         return self._late.get(sid, -1)
+
+    def find_all(self, sids: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The rows of many system ids, -1 where there is none; settles."""
+        own = self.column("sids")
+        if not len(own):
+            return np.full(sids.shape, -1, dtype=np.int64)
+        rows = np.minimum(np.searchsorted(own, sids), len(own) - 1)
+        rows[own[rows] != sids] = -1
+        return rows
 
     def append(self, sid: int, values: Mapping[str, Any]) -> int:
         """Add a row; columns that `values` leaves out are zero. Returns its place."""
@@ -118,6 +127,12 @@ class Table:
         self.settle()
         return self._arrays[name][: self._size]
 
+    def frozen(self, name: str) -> NDArray[Any]:
+        """The same, read-only."""
+        view = self.column(name)
+        view.flags.writeable = False
+        return view
+
     def raw(self, name: str) -> NDArray[Any]:
         """The array under a column, addressed by the rows that `find` returns."""
         return self._arrays[name]
@@ -125,6 +140,14 @@ class Table:
     def values(self, row: int) -> dict[str, Any]:
         """All of a row, by column, copied."""
         return {name: array[row].copy() for name, array in self._arrays.items() if name != "sids"}
+
+    def copy(self) -> Table:
+        """The same rows, which change independently from now on."""
+        twin = Table.__new__(Table)
+        twin._arrays = {name: array.copy() for name, array in self._arrays.items()}
+        twin._alive, twin._late = self._alive.copy(), dict(self._late)
+        twin._size, twin._dead, twin._sorted = self._size, self._dead, self._sorted
+        return twin
 
     def _reserve(self, size: int) -> None:
         if size <= len(self._alive):

@@ -1,96 +1,194 @@
-"""Checks of single values on their way into a World."""
+"""Checks of values on their way into a World: what passes is of the right type and range."""
 
 from __future__ import annotations
 
 import math
+import operator
 from collections.abc import Callable
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colladaphy.world.rules import DIMENSION, INERTIA, MASS, NUMBER, USER_ID, refuse
+from colladaphy.findings import Rule
+from colladaphy.world.rules import (
+    ARGUMENT,
+    COLUMNS,
+    DIMENSION,
+    INERTIA,
+    MASS,
+    NUMBER,
+    USER_ID,
+    refuse,
+)
 
-__all__ = ["inertia", "mass", "normal", "positive", "quaternion", "user_id", "vector"]
+__all__ = [
+    "array",
+    "column",
+    "flag",
+    "inertia",
+    "integer",
+    "mass",
+    "normal",
+    "number",
+    "positive",
+    "positives",
+    "quaternion",
+    "text",
+    "user_id",
+    "vector",
+]
 
 Floats = NDArray[np.float64]
+Scalar = TypeVar("Scalar", bound=np.generic)
 
 # Far above what rounding does to a unit vector, far below what anybody means by another length.
 _UNIT_TOLERANCE = 1e-9
+# Which kinds of arrays may become which, without a loss that nobody asked for.
+_TAKES = {"f": "fiu", "i": "iu", "b": "b"}
 
 
-def _numbers(what: str, value: ArrayLike, count: int) -> Floats:
+def array(value: Any) -> NDArray[Any] | None:
+    """An array of numbers, new; None if it is none. Texts are not numbers."""
     try:
-        array = np.array(value, dtype=np.float64)
-    except (TypeError, ValueError) as error:
-        raise refuse(NUMBER, f"The {what} is {value!r}: {count} numbers are needed.") from error
-    if array.shape != (count,) or not all(map(math.isfinite, array.tolist())):
-        raise refuse(NUMBER, f"The {what} is {value!r}: {count} finite numbers are needed.")
-    return array
+        result = np.array(value)
+        if result.dtype == object and not any(isinstance(item, str) for item in result.flat):
+            result = result.astype(np.float64)  # numbers beyond 64 bits, fractions
+    except (TypeError, ValueError, OverflowError):
+        return None
+    return result if result.dtype.kind in "fiub" else None
 
 
-def vector(what: str, value: ArrayLike) -> Floats:
-    """Three finite numbers, copied."""
-    return _numbers(what, value, 3)
+def vector(what: str, value: ArrayLike, count: int = 3, rule: Rule = NUMBER) -> Floats:
+    """Three (or `count`) finite numbers, copied."""
+    numbers = array(value)
+    if (
+        numbers is None
+        or numbers.shape != (count,)
+        or not all(map(math.isfinite, numbers.tolist()))
+    ):
+        raise refuse(rule, f"The {what} is {value!r}: {count} finite numbers are needed.")
+    return numbers.astype(np.float64, copy=False)
 
 
 def quaternion(value: ArrayLike) -> Floats:
     """Four finite numbers, as they are if of length one to rounding, otherwise normalised."""
-    array = _numbers("orientation", value, 4)
-    return _unit(array, lambda: refuse(NUMBER, "The orientation is a quaternion of length zero."))
+    numbers = vector("orientation", value, 4)
+    return _unit(numbers, lambda: refuse(NUMBER, "The orientation is a quaternion of length zero."))
 
 
 def normal(value: ArrayLike) -> Floats:
     """Three finite numbers, as they are if of length one to rounding, otherwise normalised."""
-    array = _numbers("normal", value, 3)
-    return _unit(array, lambda: refuse(DIMENSION, "The normal of the plane has length zero."))
+    numbers = vector("normal", value)
+    return _unit(numbers, lambda: refuse(DIMENSION, "The normal of the plane has length zero."))
 
 
-def _unit(array: Floats, zero: Callable[[], Exception]) -> Floats:
-    square = math.fsum(number * number for number in array.tolist())
-    if abs(square - 1.0) <= _UNIT_TOLERANCE:
-        return array
-    largest = max(map(abs, array.tolist()))
+def _unit(numbers: Floats, zero: Callable[[], Exception]) -> Floats:
+    items = numbers.tolist()
+    if abs(math.fsum([item * item for item in items]) - 1.0) <= _UNIT_TOLERANCE:
+        return numbers
+    largest = max(map(abs, items))
     if largest == 0.0:
         raise zero()
-    array = np.ldexp(array, -math.frexp(largest)[1])
-    return np.asarray(array / math.sqrt(float(array @ array)))
+    numbers = np.ldexp(numbers, -math.frexp(largest)[1])
+    return np.asarray(numbers / math.sqrt(float(numbers @ numbers)))
 
 
-def positive(what: str, value: float) -> float:
-    """A finite number greater than zero."""
+def number(what: str, value: float, rule: Rule = ARGUMENT) -> float:
+    """A float, finite or not."""
+    if type(value) is float:
+        return value
     try:
-        number = float(value)
-    except (TypeError, ValueError) as error:
-        raise refuse(DIMENSION, f"The {what} is {value!r}, not a number.") from error
-    if not (0.0 < number < math.inf):
-        raise refuse(DIMENSION, f"The {what} is {number!r}; it has to be positive.")
-    return number
+        if isinstance(value, (str, bytes, bytearray)):
+            raise TypeError
+        return float(value)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise refuse(rule, f"The {what} is {value!r}, not a number.") from error
+
+
+def positive(what: str, value: float, rule: Rule = DIMENSION) -> float:
+    """A finite number greater than zero."""
+    result = number(what, value, rule)
+    if not (0.0 < result < math.inf):
+        raise refuse(rule, f"The {what} is {result!r}; it has to be positive.")
+    return result
+
+
+def positives(what: str, given: ArrayLike, count: int) -> list[float]:
+    """Positive numbers, one an axis; a single one stands for all."""
+    if isinstance(given, (int, float)):
+        return [positive(what, given)] * count
+    items = given if isinstance(given, (tuple, list)) else np.asarray(given, dtype=object).tolist()
+    if not isinstance(items, (tuple, list)):
+        return [positive(what, items)] * count
+    if len(items) != count:
+        raise refuse(DIMENSION, f"A {what} is needed for each of {count} axes, not {given!r}.")
+    return [positive(what, item) for item in items]
 
 
 def mass(value: float) -> float:
     """A finite number, zero or greater."""
-    number = float(value)
-    if not (0.0 <= number < math.inf):
-        raise refuse(MASS, f"The mass is {number!r}.")
-    return number
+    result = number("mass", value, MASS)
+    if not (0.0 <= result < math.inf):
+        raise refuse(MASS, f"The mass is {result!r}.")
+    return result
 
 
 def inertia(value: ArrayLike) -> Floats:
     """A 3×3 matrix of finite numbers; three numbers are its diagonal."""
-    array = np.array(value, dtype=np.float64)
-    if array.shape == (3,):
-        array = np.diag(array)
-    if array.shape != (3, 3) or not np.all(np.isfinite(array)):
+    numbers = array(value)
+    if numbers is not None and numbers.shape == (3,):
+        numbers = np.diag(numbers)
+    if numbers is None or numbers.shape != (3, 3) or not np.all(np.isfinite(numbers)):
         raise refuse(INERTIA, f"The inertia is {value!r}.")
-    return array
+    return numbers.astype(np.float64, copy=False)
+
+
+def integer(what: str, value: int, rule: Rule = ARGUMENT) -> int:
+    """A whole number of any size."""
+    try:
+        return operator.index(value)
+    except TypeError as error:
+        raise refuse(rule, f"The {what} is {value!r}, not a whole number.") from error
 
 
 def user_id(value: int) -> int:
     """An integer that fits into 64 bits."""
-    try:
-        number = value.__index__()
-    except AttributeError as error:
-        raise refuse(USER_ID, f"The user id is {value!r}.") from error
-    if not (-(2**63) <= number < 2**63):
+    result = integer("user id", value, USER_ID)
+    if not (-(2**63) <= result < 2**63):
         raise refuse(USER_ID, f"The user id is {value!r}.")
-    return number
+    return result
+
+
+def flag(what: str, value: bool) -> bool:
+    """True or False."""
+    if isinstance(value, (bool, np.bool_)):
+        return bool(value)
+    raise refuse(ARGUMENT, f"The {what} is {value!r}: True or False is needed.")
+
+
+def text(what: str, value: str) -> str:
+    """A text."""
+    if isinstance(value, str):
+        return str(value)
+    raise refuse(ARGUMENT, f"The {what} is {value!r}, not a text.")
+
+
+def column(
+    name: str, given: ArrayLike, dtype: type[Scalar], shape: tuple[int, ...]
+) -> NDArray[Scalar]:
+    """An array of a type and shape; not copied where it has them already."""
+    try:
+        numbers = np.asarray(given)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise refuse(COLUMNS, f"The column {name} is not an array of numbers.") from error
+    if numbers.shape != shape:
+        raise refuse(COLUMNS, f"The column {name} has the shape {numbers.shape}, not {shape}.")
+    kind = np.dtype(dtype).kind
+    if numbers.dtype.kind not in _TAKES[kind] and numbers.size:
+        # Whole numbers may come as floats, and flags as 0 and 1.
+        with np.errstate(all="ignore"):
+            exact = numbers.dtype.kind in "fiub" and np.array_equal(numbers.astype(dtype), numbers)
+        if not exact:
+            raise refuse(COLUMNS, f"The column {name} does not hold what it is for.")
+    return numbers.astype(dtype, copy=False)

@@ -7,7 +7,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.world.columns import BODY_FIELDS, MEMBER_FIELDS, BodyColumns, MemberColumns
+from colladaphy.world.columns import (
+    BODY_FIELDS,
+    JOINT_FIELDS,
+    MEMBER_FIELDS,
+    BodyColumns,
+    JointColumns,
+    MemberColumns,
+)
 from colladaphy.world.core import Core
 from colladaphy.world.kinds import Kind
 from colladaphy.world.table import Table
@@ -90,7 +97,23 @@ class Viewing(Core):
         """The members of all unions by column; writable views, poses relative to the union."""
         self._dimensions_in(self.inner)
         column = self.inner.column
-        return MemberColumns(sids=column("sids"), **{key: column(key) for key in MEMBER_FIELDS})
+        sids, names = column("sids"), self.names
+        return MemberColumns(
+            sids=sids,
+            **{key: column(key) for key in MEMBER_FIELDS},
+            names=[names.get(sid) for sid in sids.tolist()] if names else None,
+        )
+
+    @property
+    def joint_columns(self) -> JointColumns:
+        """The joints by column; writable views."""
+        column, names = self.joint_table.column, self.joint_names
+        sids = column("sids")
+        return JointColumns(
+            sids=sids,
+            **{key: column(key) for key in JOINT_FIELDS},
+            names=[names.get(sid) for sid in sids.tolist()] if names else None,
+        )
 
     def columns(self) -> BodyColumns:
         """All columns of the top-level bodies at once, unions among them; `extend` takes these."""
