@@ -40,7 +40,7 @@ def read(
     everything that was changed is in the document's report. Raises InputError, XmlError or
     SchemaError with all findings.
     """
-    parsed = parse(source) if limits is None else parse(source, limits)
+    parsed = parse(source, limits or Limits(), mend=repair)
     return document_of(parsed, repair=repair, convention=convention, family={})
 
 
@@ -48,7 +48,7 @@ def document_of(
     parsed: Parsed, *, repair: bool, convention: str, family: dict[str, Document]
 ) -> Document:
     """The Document of a parsed file; see `read`. `family` are the documents open already."""
-    report = Report(parsed.file)
+    report = Report(parsed.file, list(parsed.findings))
     tree = parsed.tree
     if repair:
         from colladaphy.conform import conform

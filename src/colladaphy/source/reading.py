@@ -10,10 +10,12 @@ from typing import BinaryIO
 
 from lxml import etree
 
-from colladaphy.errors import InputError
+from colladaphy.errors import InputError, XmlError
+from colladaphy.findings import Finding
 from colladaphy.source import rules
 from colladaphy.source.archive import MAGIC, Archive
 from colladaphy.source.limits import Limits
+from colladaphy.source.mending import mend_text
 from colladaphy.source.references import (
     ArchiveOrigin,
     FolderOrigin,
@@ -22,7 +24,7 @@ from colladaphy.source.references import (
     Spent,
     read_limited,
 )
-from colladaphy.source.xml import parse_bytes
+from colladaphy.source.xml import parse_bytes, root_start
 
 __all__ = ["Loaded", "Parsed", "Source", "load", "parse", "parse_loaded"]
 
@@ -54,6 +56,9 @@ class Parsed:
     file: str | None
     limits: Limits
     origin: Origin | None = None
+    mended: bool = False
+    """Whether text that is not well-formed was to be mended; `findings` say what was."""
+    findings: tuple[Finding, ...] = ()
 
     @property
     def base(self) -> Path | None:
@@ -85,22 +90,35 @@ class Parsed:
     def parse_relative(self, url: str) -> Parsed:
         """The COLLADA document that a relative URL names, with the same border and limits."""
         resource = self.open_relative(url)
-        return parse_loaded(Loaded(resource.data, resource.file, resource.origin, self.limits))
+        loaded = Loaded(resource.data, resource.file, resource.origin, self.limits)
+        return parse_loaded(loaded, mend=self.mended)
 
 
-def parse(source: Source, limits: Limits = _DEFAULTS) -> Parsed:
+def parse(source: Source, limits: Limits = _DEFAULTS, *, mend: bool = False) -> Parsed:
     """Read and parse a `.dae` or `.zae` (told apart by content, not by name).
 
     InputError where it cannot be read or unpacked, XmlError where it is not well-formed XML with
-    COLLADA as its root. The tree can be of any version and is not validated.
+    COLLADA as its root. The tree can be of any version and is not validated. With `mend`, prefixes
+    that nobody declared and bytes of another encoding are mended, with findings.
     """
-    return parse_loaded(load(source, limits))
+    return parse_loaded(load(source, limits), mend=mend)
 
 
-def parse_loaded(loaded: Loaded) -> Parsed:
-    """Parse what `load` has read."""
-    tree = parse_bytes(loaded.data, loaded.file, loaded.limits)
-    return Parsed(tree, loaded.file, loaded.limits, loaded.origin)
+def parse_loaded(loaded: Loaded, *, mend: bool = False) -> Parsed:
+    """Parse what `load` has read; see `parse`."""
+    findings: list[Finding] = []
+    try:
+        tree = parse_bytes(loaded.data, loaded.file, loaded.limits)
+    except XmlError:
+        if not mend:
+            raise
+        data, findings = mend_text(loaded.data, root_start(loaded.data), loaded.file)
+        if not findings:
+            raise
+        tree = parse_bytes(data, loaded.file, loaded.limits)
+    return Parsed(
+        tree, loaded.file, loaded.limits, loaded.origin, mended=mend, findings=tuple(findings)
+    )
 
 
 def load(source: Source, limits: Limits = _DEFAULTS) -> Loaded:

@@ -7,6 +7,7 @@ from colladaphy.findings import Rule, Severity
 __all__ = ["RULES"]
 
 _ERROR = Severity.ERROR
+_WARNING = Severity.WARNING
 
 MISSING = Rule(
     "io-missing",
@@ -149,6 +150,18 @@ TOO_MANY_ELEMENTS = Rule(
     "The document has more elements than the limit.",
     "If the file is trusted, raise the limit with Limits(elements=...) or --limit elements=N.",
 )
+LATIN = Rule(
+    "repair-encoding",
+    _WARNING,
+    "Bytes are not in the encoding that the document states.",
+    "Save the file as UTF-8, or state its encoding.",
+)
+PREFIX = Rule(
+    "repair-undeclared-prefix",
+    _WARNING,
+    "A prefix has no namespace.",
+    "Declare it with xmlns:prefix=... where it begins; programs that save a file may drop it.",
+)
 WRONG_ROOT = Rule(
     "xml-wrong-root",
     _ERROR,
@@ -188,6 +201,8 @@ RULES = (
     TOO_DEEP,
     TEXT_TOO_LONG,
     TOO_MANY_ELEMENTS,
+    LATIN,
+    PREFIX,
     WRONG_ROOT,
     WRONG_NAMESPACE,
 )

@@ -11,7 +11,7 @@ from colladaphy.findings import Finding, Rule
 from colladaphy.source import rules
 from colladaphy.source.limits import LIBXML2_DEPTH, LIBXML2_DEPTH_MAX, LIBXML2_TEXT, Limits
 
-__all__ = ["COLLADA_1_4", "COLLADA_1_5", "parse_bytes"]
+__all__ = ["COLLADA_1_4", "COLLADA_1_5", "parse_bytes", "root_start"]
 
 COLLADA_1_4 = "http://www.collada.org/2005/11/COLLADASchema"
 COLLADA_1_5 = "http://www.collada.org/2008/03/COLLADASchema"
@@ -114,11 +114,11 @@ def _prolog(data: bytes) -> str:
     if data.startswith(_UTF16):
         return data[: 1 << 20].decode("utf-16", "replace")
     position = 3 if data.startswith(b"\xef\xbb\xbf") else 0
-    end = _root_start(data, position)
+    end = root_start(data, position)
     return data[position : end + 256].decode("utf-8", "replace")
 
 
-def _root_start(data: bytes, position: int) -> int:
+def root_start(data: bytes, position: int = 0) -> int:
     """The offset of the first markup that is neither instruction, comment nor DOCTYPE."""
     while True:
         position = data.find(b"<", position)

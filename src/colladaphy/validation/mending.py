@@ -49,9 +49,9 @@ def mend(
     """
     from colladaphy.conform import conform
 
-    parsed = parse(source, limits or Limits())
+    parsed = parse(source, limits or Limits(), mend=True)
     tree, changes = conform(parsed.tree, file=parsed.file, convention=convention, only=only)
-    report = Report(parsed.file)
+    report = Report(parsed.file, list(parsed.findings))
     report.extend(changes)
     faults = Report(parsed.file)
     faults.extend(gate(tree))
