@@ -1,251 +1,258 @@
-"""Creators of joints."""
+"""Joints: what two bodies may do against each other (thesis 2.2, 4.5; COLLADA <rigid_constraint>).
+
+A joint binds a frame of `body1` (the reference) to a frame of `body2`. With frame 1 at rest, the
+origin of frame 2 may move along the axes of frame 1 within the linear limits, and frame 2 may turn
+about them within the angular limits (radians; x and y swing, z twists). Equal limits lock an axis,
+±inf free it. Springs (stiffness, damping, target) pull along what is free; stiffness and damping
+zero is no spring.
+"""
 
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any, Final, TypedDict, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colladaphy.world import rotations, values
-from colladaphy.world.body import Body
-from colladaphy.world.columns import JointColumns
-from colladaphy.world.creating import names_of, new_system_ids
-from colladaphy.world.joints import (
-    FREE,
-    LOCKED,
-    Frame,
-    Joint,
-    Limits,
-    Spring,
-    limits,
-    prepare_joints,
-    spring,
+from colladaphy.world.columns import JOINT_FIELDS, JointColumns
+from colladaphy.world.rules import (
+    ARGUMENT,
+    COLUMNS,
+    JOINT_BODIES,
+    JOINT_VALUE,
+    NUMBER,
+    refuse,
 )
-from colladaphy.world.rules import BODY_GONE, JOINT_BODIES, JOINT_VALUE, SYSTEM_ID, refuse
-from colladaphy.world.uniting import Uniting
+from colladaphy.world.storage import Storage
 
-__all__ = ["Attaching"]
+__all__ = [
+    "AT_CENTRE",
+    "FREE",
+    "LOCKED",
+    "Frame",
+    "JointOptions",
+    "Limits",
+    "Spring",
+    "attach",
+    "attach_along",
+    "extend_joints",
+    "one_axis",
+]
 
 Floats = NDArray[np.float64]
+Frame = tuple[ArrayLike, ArrayLike]
+"""Position (3,) and orientation (4,), relative to a body, or to the world."""
+Limits = ArrayLike
+"""Three numbers, one an axis, ±inf for free."""
+Spring = tuple[float, float, float]
+"""Stiffness, damping, target (a length or an angle in radians)."""
+
+LOCKED: Final = (0.0, 0.0, 0.0)
+FREE: Final = (np.inf, np.inf, np.inf)
+AT_CENTRE: Final = (LOCKED, rotations.IDENTITY)
 
 
-class Attaching(Uniting):
-    """Binds bodies by joints. A body of None is the world; a member stands for its union."""
+class JointOptions(TypedDict, total=False):
+    """What can be said of any joint; values are stored as they are given."""
 
-    def attach_fixed_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None = None,
-        anchor2: ArrayLike | None = None,
-        **options: Any,
-    ) -> Joint:
-        """Hold two bodies as they lie to each other.
+    linear_min: Limits
+    linear_max: Limits
+    angular_min: Limits
+    angular_max: Limits
+    linear_spring: Spring | None
+    angular_spring: Spring | None
+    enabled: bool
+    interpenetrate: bool
+    uid: int
+    sid: int | None
+    name: str | None
 
-        Anchors are points relative to each body. By default the joint is at the centre of body 2;
-        one anchor determines the other. `options` are those of `attach_joint`.
-        """
-        return self._attach_along(body1, body2, anchor1, anchor2, None, {}, options)
 
-    def attach_hinge_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None = None,
-        anchor2: ArrayLike | None = None,
-        *,
-        axis: ArrayLike,
-        limits: tuple[float, float] = (-np.inf, np.inf),
-        **options: Any,
-    ) -> Joint:
-        """Let body 2 turn about `axis` (3,), given in the frame of body 1, within `limits`."""
-        given = {"angular_min": (0.0, 0.0, limits[0]), "angular_max": (0.0, 0.0, limits[1])}
-        return self._attach_along(body1, body2, anchor1, anchor2, axis, given, options)
+def attach(
+    storage: Storage,
+    body1: int,
+    body2: int,
+    *,
+    frame1: Frame = AT_CENTRE,
+    frame2: Frame = AT_CENTRE,
+    linear_min: Limits = LOCKED,
+    linear_max: Limits = LOCKED,
+    angular_min: Limits = LOCKED,
+    angular_max: Limits = LOCKED,
+    linear_spring: Spring | None = None,
+    angular_spring: Spring | None = None,
+    enabled: bool = True,
+    interpenetrate: bool = False,
+    uid: int = 0,
+    sid: int | None = None,
+    name: str | None = None,
+) -> int:
+    """Bind the bodies of two system ids (0 is the world); returns that of the joint."""
+    roots, points, turns = [], [], []
+    for body, frame in ((body1, frame1), (body2, frame2)):
+        if not isinstance(frame, (tuple, list)) or len(frame) != 2:
+            raise refuse(ARGUMENT, f"The frame {frame!r} is not a position and an orientation.")
+        point = values.vector("position of the frame", frame[0])
+        root, point, turn = _in_root(storage, body, point, values.quaternion(frame[1]))
+        roots.append(root)
+        points.append(point)
+        turns.append(turn)
+    if roots[0] == roots[1]:
+        raise refuse(JOINT_BODIES, "The two bodies are the same body, or members of one.")
+    number = values.new_system_id(
+        sid, storage.next_joint_sid, lambda sid: storage.joint_table.find(sid) >= 0
+    )
+    row = {
+        "uids": values.user_id(uid),
+        "bodies": roots,
+        "positions": points,
+        "orientations": turns,
+        "linear_limits": _limits("linear", linear_min, linear_max),
+        "angular_limits": _limits("angular", angular_min, angular_max),
+        "linear_springs": _spring("linear", linear_spring),
+        "angular_springs": _spring("angular", angular_spring),
+        "enabled": values.flag("flag enabled", enabled),
+        "interpenetrate": values.flag("flag interpenetrate", interpenetrate),
+    }
+    name = None if name is None else values.text("name", name)
+    storage.next_joint_sid = max(storage.next_joint_sid, number + 1)
+    storage.joint_table.append(number, row)
+    for root in roots:
+        if root:
+            storage.joints_of.setdefault(root, []).append(number)
+    if name is not None:
+        storage.joint_names[number] = name
+    return number
 
-    def attach_slider_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None = None,
-        anchor2: ArrayLike | None = None,
-        *,
-        axis: ArrayLike,
-        limits: tuple[float, float] = (-np.inf, np.inf),
-        **options: Any,
-    ) -> Joint:
-        """Let body 2 slide along `axis` (3,), given in the frame of body 1, within `limits`."""
-        given = {"linear_min": (0.0, 0.0, limits[0]), "linear_max": (0.0, 0.0, limits[1])}
-        return self._attach_along(body1, body2, anchor1, anchor2, axis, given, options)
 
-    def attach_ball_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None = None,
-        anchor2: ArrayLike | None = None,
-        **options: Any,
-    ) -> Joint:
-        """Let body 2 turn about a point in any direction."""
-        given = {"angular_min": tuple(-value for value in FREE), "angular_max": FREE}
-        return self._attach_along(body1, body2, anchor1, anchor2, None, given, options)
+def _in_root(storage: Storage, sid: int, point: Floats, turn: Floats) -> tuple[int, Floats, Floats]:
+    """The outermost union of a body, and a frame of the body as one of that."""
+    while sid and (parent := storage.parent_of(sid)) is not None:
+        row = storage.inner.find(sid)
+        own = storage.inner.raw("orientations")[row]
+        point = storage.inner.raw("positions")[row] + rotations.rotate(own, point)
+        turn = rotations.multiply(own, turn)
+        sid = parent
+    return sid, point, turn
 
-    def attach_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        *,
-        frame1: Frame = (LOCKED, rotations.IDENTITY),
-        frame2: Frame = (LOCKED, rotations.IDENTITY),
-        linear_min: Limits = LOCKED,
-        linear_max: Limits = LOCKED,
-        angular_min: Limits = LOCKED,
-        angular_max: Limits = LOCKED,
-        linear_spring: Spring | None = None,
-        angular_spring: Spring | None = None,
-        enabled: bool = True,
-        interpenetrate: bool = False,
-        uid: int = 0,
-        sid: int | None = None,
-        name: str | None = None,
-    ) -> Joint:
-        """Bind two bodies with six degrees of freedom, each locked, limited or free.
 
-        Everything is stored as it is given; see `colladaphy.world.joints` for what it means.
-        """
-        roots, frames = [], []
-        for body, frame in ((body1, frame1), (body2, frame2)):
-            point = values.vector("position of the frame", frame[0])
-            turn = values.quaternion(frame[1])
-            root = self._joint_root(body)
-            if body is not None and root != body.sid:
-                point, turn = self._in_root(body.sid, root, point, turn)
-            roots.append(root)
-            frames.append((point, turn))
-        if roots[0] == roots[1]:
-            raise refuse(JOINT_BODIES, f"{body1!r} and {body2!r} are the same body, or of one.")
-        number = self.next_joint_sid if sid is None else sid
-        if not 0 < number < 2**63 - 1 or self.joint_table.find(number) >= 0:
-            raise refuse(SYSTEM_ID, f"The system id {number} is in use, or out of range.")
-        row = {
-            "uids": values.user_id(uid),
-            "bodies": roots,
-            "positions": [frame[0] for frame in frames],
-            "orientations": [frame[1] for frame in frames],
-            "linear_limits": limits("linear", linear_min, linear_max),
-            "angular_limits": limits("angular", angular_min, angular_max),
-            "linear_springs": spring("linear", linear_spring),
-            "angular_springs": spring("angular", angular_spring),
-            "enabled": bool(enabled),
-            "interpenetrate": bool(interpenetrate),
-        }
-        self.next_joint_sid = max(self.next_joint_sid, number + 1)
-        self.joint_table.append(number, row)
-        for root in roots:
-            if root:
-                self.joints_of.setdefault(root, []).append(number)
-        if name is not None:
-            self.joint_names[number] = str(name)
-        return Joint(cast("Any", self), number)
+def attach_along(
+    storage: Storage,
+    body1: int,
+    body2: int,
+    anchor1: ArrayLike | None,
+    anchor2: ArrayLike | None,
+    axis: ArrayLike | None = None,
+    **options: Unpack[JointOptions],
+) -> int:
+    """A joint whose frames coincide now (or whose anchors shall), z along `axis`."""
+    origin1, turn1 = _pose_or_world(storage, body1)
+    origin2, turn2 = _pose_or_world(storage, body2)
+    if anchor1 is None:
+        second = values.vector("anchor", LOCKED if anchor2 is None else anchor2)
+        point = origin2 + rotations.rotate(turn2, second)
+        first = rotations.unrotate(turn1, point - origin1)
+    else:
+        first = values.vector("anchor", anchor1)
+    if anchor2 is None:
+        point = origin1 + rotations.rotate(turn1, first)
+        anchor2 = rotations.unrotate(turn2, point - origin2)
+    frame = np.array(rotations.IDENTITY)
+    if axis is not None:
+        direction = values.vector("axis", axis, rule=JOINT_VALUE)
+        if not np.any(direction):
+            raise refuse(JOINT_VALUE, "The axis of the joint has length zero.")
+        frame = rotations.between((0.0, 0.0, 1.0), direction)
+    across = rotations.multiply(rotations.conjugate(rotations.normalize(turn2)), turn1)
+    return attach(
+        storage,
+        body1,
+        body2,
+        frame1=(first, frame),
+        frame2=(anchor2, rotations.multiply(across, frame)),
+        **options,
+    )
 
-    def extend_joints(self, columns: JointColumns) -> NDArray[np.int64]:
-        """Create many joints at once, stored as they are given; returns their system ids (n,).
 
-        Bodies are top-level ones. Either all are created or, on WorldError, none.
-        """
-        filled = prepare_joints(columns)
-        bodies = filled["bodies"]
-        count = len(bodies)
-        outside = np.flatnonzero((bodies != 0) & (self.top.find_all(bodies) < 0).reshape(-1, 2))
-        if len(outside):
-            sid = bodies.reshape(-1)[outside[0]]
-            raise refuse(JOINT_BODIES, f"There is no top-level body with the system id {sid}.")
-        sids = new_system_ids(
-            columns.sids, count, self.next_joint_sid, lambda sid: self.joint_table.find(sid) >= 0
-        )
-        names = names_of(sids, columns.names)
-        self.joint_table.extend(sids, filled)
-        self.joint_names.update(names)
-        for body, joint in zip(
-            bodies.reshape(-1).tolist(), np.repeat(sids, 2).tolist(), strict=True
-        ):
-            if body:
-                self.joints_of.setdefault(body, []).append(joint)
-        if count:
-            self.next_joint_sid = max(self.next_joint_sid, int(sids.max()) + 1)
-        return sids
+def one_axis(limits: tuple[float, float]) -> tuple[Limits, Limits]:
+    """Lower and upper limits that leave the third axis, z, a range."""
+    try:
+        low, high = limits
+    except (TypeError, ValueError) as error:
+        raise refuse(JOINT_VALUE, f"The limits are {limits!r}, not a pair.") from error
+    return (0.0, 0.0, low), (0.0, 0.0, high)
 
-    def destroy_joint(self, joint: Joint) -> None:
-        """Remove a joint; the bodies stay."""
-        if joint.world is not self:
-            raise refuse(BODY_GONE, f"{joint!r} belongs to another World.")
-        self.remove_joint(joint.sid)
 
-    def remove_joint(self, sid: int) -> None:
-        """Remove the joint of a system id."""
-        row = self.joint_table.find(sid)
-        if row < 0:
-            raise refuse(BODY_GONE, f"There is no joint with the system id {sid}.")
-        for body in self.joint_table.raw("bodies")[row].tolist():
-            if body:
-                self.joints_of[body].remove(sid)
-                if not self.joints_of[body]:
-                    del self.joints_of[body]
-        self.joint_table.remove(row)
-        self.joint_names.pop(sid, None)
+def _pose_or_world(storage: Storage, sid: int) -> tuple[Floats, Floats]:
+    return storage.pose_of(sid) if sid else (np.zeros(3), np.array(rotations.IDENTITY))
 
-    def _joint_root(self, body: Body | None) -> int:
-        if body is None:
-            return 0
-        self.check_own(body)
-        return self.root_of(body.sid)
 
-    def _in_root(self, sid: int, root: int, point: Floats, turn: Floats) -> tuple[Floats, Floats]:
-        """A frame of a member in the frame of its outermost union."""
-        while sid != root:
-            row = self.inner.find(sid)
-            own = self.inner.raw("orientations")[row]
-            point = self.inner.raw("positions")[row] + rotations.rotate(own, point)
-            turn = rotations.multiply(own, turn)
-            sid = int(self.inner.raw("parents")[row])
-        return point, turn
+def _limits(what: str, low: Limits, high: Limits) -> Floats:
+    """Lower and upper limits as (2, 3)."""
+    pair = values.array(low), values.array(high)
+    if any(numbers is None or numbers.shape != (3,) or np.isnan(numbers).any() for numbers in pair):
+        raise refuse(JOINT_VALUE, f"The {what} limits are {low!r} and {high!r}.")
+    return np.array(pair, dtype=np.float64)
 
-    def _attach_along(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None,
-        anchor2: ArrayLike | None,
-        axis: ArrayLike | None,
-        given: dict[str, Any],
-        options: dict[str, Any],
-    ) -> Joint:
-        """A joint whose frames coincide now (or whose anchors shall), z along `axis`."""
-        origin1, turn1 = self._pose_or_world(body1)
-        origin2, turn2 = self._pose_or_world(body2)
-        if anchor1 is None:
-            point = origin2 + rotations.rotate(turn2, (0, 0, 0) if anchor2 is None else anchor2)
-            anchor1 = rotations.unrotate(turn1, point - origin1)
-        if anchor2 is None:
-            point = origin1 + rotations.rotate(turn1, anchor1)
-            anchor2 = rotations.unrotate(turn2, point - origin2)
-        frame = np.array(rotations.IDENTITY)
-        if axis is not None:
-            direction = values.vector("axis", axis)
-            if not np.any(direction):
-                raise refuse(JOINT_VALUE, "The axis of the joint has length zero.")
-            frame = rotations.between((0.0, 0.0, 1.0), direction)
-        across = rotations.multiply(rotations.conjugate(rotations.normalize(turn2)), turn1)
-        return self.attach_joint(
-            body1,
-            body2,
-            frame1=(anchor1, frame),
-            frame2=(anchor2, rotations.multiply(across, frame)),
-            **{**given, **options},
-        )
 
-    def _pose_or_world(self, body: Body | None) -> tuple[Floats, Floats]:
-        if body is None:
-            return np.zeros(3), np.array(rotations.IDENTITY)
-        self.check_own(body)
-        return self.pose_of(body.sid)
+def _spring(what: str, value: Spring | None) -> Floats:
+    """Stiffness, damping and target as (3,); None is no spring."""
+    if value is None:
+        return np.zeros(3)
+    return values.vector(f"{what} spring", value, rule=JOINT_VALUE)
+
+
+def extend_joints(storage: Storage, columns: JointColumns) -> NDArray[np.int64]:
+    """Add many joints, all or, on WorldError, none; returns their system ids (n,)."""
+    filled = _prepare(columns)
+    bodies = filled["bodies"]
+    missing = bodies[(bodies != 0) & (storage.top.find_all(bodies) < 0)]
+    if len(missing):
+        raise refuse(JOINT_BODIES, f"There is no top-level body with the system id {missing[0]}.")
+    table = storage.joint_table
+    sids = values.new_system_ids(
+        columns.sids, len(bodies), storage.next_joint_sid, lambda sid: table.find(sid) >= 0
+    )
+    names = values.names(sids, columns.names)
+    table.extend(sids, filled)
+    storage.joint_names.update(names)
+    for body, joint in zip(bodies.ravel().tolist(), np.repeat(sids, 2).tolist(), strict=True):
+        if body:
+            storage.joints_of.setdefault(body, []).append(joint)
+    if len(sids):
+        storage.next_joint_sid = max(storage.next_joint_sid, int(sids.max()) + 1)
+    return sids
+
+
+def _prepare(columns: JointColumns) -> dict[str, NDArray[Any]]:
+    """Check columns of joints (all but the system ids and names), and complete them."""
+    if not isinstance(columns, JointColumns):
+        raise refuse(ARGUMENT, f"Joints are JointColumns, not {type(columns).__name__}.")
+    try:
+        count = len(columns.bodies)
+    except TypeError as error:
+        raise refuse(COLUMNS, "The column bodies has two numbers a joint.") from error
+    filled: dict[str, NDArray[Any]] = {}
+    for name, (dtype, shape) in JOINT_FIELDS.items():
+        given = getattr(columns, name)
+        if given is not None:
+            filled[name] = values.column(name, given, dtype, (count, *shape))
+    filled.setdefault("enabled", np.ones(count, dtype=np.bool_))
+    filled.setdefault("orientations", np.tile(rotations.IDENTITY, (count, 2, 1)))
+    if np.any(filled["bodies"][:, 0] == filled["bodies"][:, 1]):
+        raise refuse(JOINT_BODIES, "A joint binds a body to itself.")
+    for name, rule in (
+        ("positions", NUMBER),
+        ("orientations", NUMBER),
+        ("linear_springs", JOINT_VALUE),
+        ("angular_springs", JOINT_VALUE),
+    ):
+        if name in filled and not np.all(np.isfinite(filled[name])):
+            raise refuse(rule, f"The column {name} holds numbers that are not finite.")
+    if not np.all(np.any(filled["orientations"] != 0, axis=2)):
+        raise refuse(NUMBER, "An orientation is a quaternion of length zero.")
+    for name in ("linear_limits", "angular_limits"):
+        if name in filled and np.any(np.isnan(filled[name])):
+            raise refuse(JOINT_VALUE, f"The column {name} holds what is not a number.")
+    return filled

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,10 +12,9 @@ from colladaphy.world.kinds import Kind
 from colladaphy.world.materials import Material
 from colladaphy.world.meshes import Mesh
 from colladaphy.world.rules import KIND, UNION_MEMBERS, KindError, refuse
-from colladaphy.world.shapes import solid_volume
-
-if TYPE_CHECKING:
-    from colladaphy.world.world import World
+from colladaphy.world.shapes import volume
+from colladaphy.world.storage import Storage
+from colladaphy.world.uniting import place
 
 __all__ = ["Body"]
 
@@ -25,37 +24,40 @@ Floats = NDArray[np.float64]
 class Body:
     """One body of a World: a view of its row, alive until the body is destroyed.
 
-    Arrays that are returned are copies; assign to change the World. Vectors are in the World's
-    unit, quaternions are (w, x, y, z), angular velocities in rad/s in the world frame, inertias
-    (3, 3) about the centre of mass in the body frame. A member of a union moves with it: its
-    velocities, its being fixed and its sleep are the union's.
+    Arrays that are returned are read-only copies; assign to change the World. Vectors are in the
+    World's unit, quaternions are (w, x, y, z), angular velocities in rad/s in the world frame,
+    inertias (3, 3) about the centre of mass in the body frame. A member of a union moves with it:
+    its velocities, its being fixed and its sleep are the union's.
     """
 
-    __slots__ = ("sid", "world")
+    __slots__ = ("_storage", "sid")
 
-    def __init__(self, world: World, sid: int) -> None:
-        self.world = world
+    def __init__(self, storage: Storage, sid: int) -> None:
+        self._storage = storage
         self.sid = sid
         """System id, unique within the World."""
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, Body) and other.sid == self.sid and other.world is self.world
+        return isinstance(other, Body) and other.sid == self.sid and other._storage is self._storage
 
     def __hash__(self) -> int:
-        return hash((id(self.world), self.sid))
+        return hash((id(self._storage), self.sid))
 
     def __repr__(self) -> str:
-        if self.sid not in self.world:
+        if self.sid not in self._storage:
             return f"<body {self.sid}, destroyed>"
         name = f" {self.name!r}" if self.name else ""
         return f"<{self.kind.name.lower()} {self.sid}{name}>"
 
     def _get(self, column: str) -> Any:
-        table, row = self.world.locate(self.sid)
+        table, row = self._storage.locate(self.sid)
         return table.raw(column)[row]
 
+    def _copy(self, column: str) -> Floats:
+        return _frozen(self._get(column).copy())
+
     def _set(self, column: str, value: Any) -> None:
-        table, row = self.world.locate(self.sid)
+        table, row = self._storage.locate(self.sid)
         table.raw(column)[row] = value
 
     # --- what it is
@@ -77,36 +79,33 @@ class Body:
     @property
     def name(self) -> str | None:
         """The name, if it has one."""
-        self.world.locate(self.sid)
-        return self.world.names.get(self.sid)
+        self._storage.locate(self.sid)
+        return self._storage.names.get(self.sid)
 
     @name.setter
     def name(self, value: str | None) -> None:
-        self.world.locate(self.sid)
+        self._storage.locate(self.sid)
         if value is None:
-            self.world.names.pop(self.sid, None)
+            self._storage.names.pop(self.sid, None)
         else:
-            self.world.names[self.sid] = str(value)
+            self._storage.names[self.sid] = values.text("name", value)
 
     @property
     def parent(self) -> Body | None:
         """The union that it is a member of."""
-        sid = self.world.parent_of(self.sid)
-        return None if sid is None else Body(self.world, sid)
+        sid = self._storage.parent_of(self.sid)
+        return None if sid is None else Body(self._storage, sid)
 
     @property
     def members(self) -> tuple[Body, ...]:
         """The members of a union in the order in which it was made of them, else none."""
-        self.world.locate(self.sid)
-        return tuple(Body(self.world, sid) for sid in self.world.children.get(self.sid, ()))
+        self._storage.locate(self.sid)
+        return tuple(Body(self._storage, sid) for sid in self._storage.children.get(self.sid, ()))
 
     @property
     def root(self) -> Body:
         """The outermost union that it belongs to, or itself."""
-        body = self
-        while (parent := body.parent) is not None:
-            body = parent
-        return body
+        return Body(self._storage, self._storage.root_of(self.sid))
 
     @property
     def material(self) -> Material | None:
@@ -114,50 +113,50 @@ class Body:
         if self.kind is Kind.UNION:
             materials = {member.material for member in self.members}
             return materials.pop() if len(materials) == 1 else None
-        return self.world.materials[int(self._get("material_ids"))]
+        return self._storage.materials[int(self._get("material_ids"))]
 
     # --- where it is
 
     @property
     def position(self) -> Floats:
         """Centre of mass in the world frame (3,)."""
-        return self.world.pose_of(self.sid)[0]
+        return _frozen(self._storage.pose_of(self.sid)[0])
 
     @position.setter
     def position(self, value: ArrayLike) -> None:
-        self.world.place(self.sid, values.vector("position", value), None)
+        place(self._storage, self.sid, values.vector("position", value), None)
 
     @property
     def orientation(self) -> Floats:
         """Rotation from the body frame to the world frame (4,)."""
-        return self.world.pose_of(self.sid)[1]
+        return _frozen(self._storage.pose_of(self.sid)[1])
 
     @orientation.setter
     def orientation(self, value: ArrayLike) -> None:
-        self.world.place(self.sid, None, values.quaternion(value))
+        place(self._storage, self.sid, None, values.quaternion(value))
 
     @property
     def local_position(self) -> Floats:
         """Position relative to the union that it is a member of; else as `position`. Stored."""
-        return np.array(self._get("positions"))
+        return self._copy("positions")
 
     @property
     def local_orientation(self) -> Floats:
         """Orientation relative to the union that it is a member of. Stored."""
-        return np.array(self._get("orientations"))
+        return self._copy("orientations")
 
     def rotate(self, x: float, y: float, z: float) -> None:
         """Turn about the fixed axes x, then y, then z through its centre, in radians."""
-        turn = rotations.fixed_angles(x, y, z)
-        turned = rotations.normalize(rotations.multiply(turn, self.orientation))
-        self.world.place(self.sid, None, turned)
+        angles = values.vector("angles", (x, y, z)).tolist()
+        orientation = self._storage.pose_of(self.sid)[1].tolist()
+        place(self._storage, self.sid, None, rotations.turned(orientation, *angles))
 
     # --- how it moves
 
     @property
     def linear_velocity(self) -> Floats:
         """Velocity of the centre of mass (3,)."""
-        return self.world.velocity_of(self.sid)[0]
+        return _frozen(self._storage.velocity_of(self.sid)[0])
 
     @linear_velocity.setter
     def linear_velocity(self, value: ArrayLike) -> None:
@@ -166,7 +165,7 @@ class Body:
     @property
     def angular_velocity(self) -> Floats:
         """Angular velocity in the world frame (3,), rad/s."""
-        return self.world.velocity_of(self.sid)[1]
+        return _frozen(self._storage.velocity_of(self.sid)[1])
 
     @angular_velocity.setter
     def angular_velocity(self, value: ArrayLike) -> None:
@@ -175,7 +174,7 @@ class Body:
     @property
     def force(self) -> Floats:
         """Force (3,) that acts on the centre of mass of its root during the next step."""
-        return np.array(self.root._get("forces"))
+        return self.root._copy("forces")
 
     @force.setter
     def force(self, value: ArrayLike) -> None:
@@ -184,16 +183,17 @@ class Body:
     @property
     def torque(self) -> Floats:
         """Torque (3,) that acts on its root during the next step."""
-        return np.array(self.root._get("torques"))
+        return self.root._copy("torques")
 
     @torque.setter
     def torque(self, value: ArrayLike) -> None:
         self._set_motion("torques", values.vector("torque", value))
 
     def _set_motion(self, column: str, value: Floats) -> None:
-        if self.parent is not None:
+        table, row = self._storage.locate(self.sid)
+        if table is not self._storage.top:
             raise refuse(UNION_MEMBERS, f"{self!r} moves with its union; set it on that.")
-        self._set(column, value)
+        table.raw(column)[row] = value
 
     @property
     def sleeping(self) -> bool:
@@ -202,7 +202,7 @@ class Body:
 
     @sleeping.setter
     def sleeping(self, value: bool) -> None:
-        self.root._set("sleeping", bool(value))
+        self.root._set("sleeping", values.flag("flag sleeping", value))
 
     # --- its mass
 
@@ -214,12 +214,12 @@ class Body:
     @property
     def inertia(self) -> Floats:
         """Inertia (3, 3) about the centre of mass in the body frame."""
-        return np.array(self._get("inertias"))
+        return self._copy("inertias")
 
     @property
     def infinite(self) -> bool:
         """True for planes and for unions that hold one."""
-        return self.world.is_infinite(self.sid)
+        return self._storage.is_infinite(self.sid)
 
     @property
     def fixed(self) -> bool:
@@ -228,9 +228,9 @@ class Body:
 
     @fixed.setter
     def fixed(self, value: bool) -> None:
-        root = self.root
+        flag, root = values.flag("flag fixed", value), self.root
         if not root.infinite:
-            root._set("fixed", bool(value))
+            root._set("fixed", flag)
 
     @property
     def inverse_mass(self) -> float:
@@ -243,8 +243,8 @@ class Body:
         """The inverse of the inertia, zero for bodies that are fixed or have none."""
         inertia = self.inertia
         if self.fixed or not np.any(inertia):
-            return np.zeros((3, 3))
-        return np.asarray(np.linalg.inv(inertia))
+            return _frozen(np.zeros((3, 3)))
+        return _frozen(np.asarray(np.linalg.inv(inertia), dtype=np.float64))
 
     @property
     def volume(self) -> float:
@@ -254,7 +254,7 @@ class Body:
             return sum(member.volume for member in self.members)
         if kind is Kind.MESH:
             return self.mesh.volume
-        return float(solid_volume(kind, self._get("dimensions")[None])[0])
+        return float(volume(kind, *self._get("dimensions").tolist()))
 
     @property
     def density(self) -> float:
@@ -276,14 +276,12 @@ class Body:
 
         Normal and displacement of a plane are in the frame of `local_position`.
         """
-        table, row = self.world.locate(self.sid)
-        if table.raw("kinds")[row] != Kind.PLANE:
-            return np.array(table.raw("dimensions")[row])
-        return planes.agreeing(
-            table.raw("dimensions")[row],
-            table.raw("positions")[row],
-            table.raw("orientations")[row],
-        )
+        table, row = self._storage.locate(self.sid)
+        stored: Floats = table.raw("dimensions")[row]
+        if table.raw("kinds")[row] == Kind.PLANE:
+            pose = table.raw("positions")[row], table.raw("orientations")[row]
+            return _frozen(planes.agreeing(stored, *pose))
+        return _frozen(stored.copy())
 
     @property
     def hollow(self) -> bool:
@@ -317,7 +315,7 @@ class Body:
         """Outward unit normal of a plane in the world frame (3,)."""
         local = self._dimension("normal", (Kind.PLANE,))[:3]
         parent = self.parent
-        return local if parent is None else rotations.rotate(parent.orientation, local)
+        return local if parent is None else _frozen(rotations.rotate(parent.orientation, local))
 
     @property
     def displacement(self) -> float:
@@ -329,4 +327,10 @@ class Body:
     def mesh(self) -> Mesh:
         """The mesh of a mesh body, shared between bodies."""
         self._dimension("mesh", (Kind.MESH,))
-        return self.world.meshes[int(self._get("mesh_ids"))]
+        return self._storage.meshes[int(self._get("mesh_ids"))]
+
+
+def _frozen(array: Floats) -> Floats:
+    """A copy that nobody can take for the World's own memory."""
+    array.flags.writeable = False
+    return array

@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.world.columns import BODY_FIELDS, MEMBER_FIELDS
 from colladaphy.world.materials import VALUES
-
-if TYPE_CHECKING:
-    from colladaphy.world.world import World
+from colladaphy.world.world import World
 
 __all__ = ["compare"]
 

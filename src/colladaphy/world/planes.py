@@ -6,8 +6,6 @@ were given as long as they agree with it to rounding, and follow from it where t
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,15 +18,16 @@ Floats = NDArray[np.float64]
 _ROUNDING = 16 * float(np.finfo(np.float64).eps)
 
 
-def agreeing(dimensions: Floats, position: Floats, orientation: Floats) -> Floats:
-    """Normal and displacement (4,) that agree with a pose, from those that were stored."""
+def agreeing(dimensions: Floats, positions: Floats, orientations: Floats) -> Floats:
+    """Normals and displacements (..., 4) that agree with poses, from those that were stored."""
     result = np.array(dimensions)
-    turned = rotations.to_matrix(orientation)[:, 2]
-    if not np.all(np.abs(turned - result[:3]) <= _ROUNDING):
-        result[:3] = turned
-    normal, stored = result[:3].tolist(), float(result[3])
-    products = [a * b for a, b in zip(normal, position.tolist(), strict=True)]
-    derived = sum(products)
-    if math.isfinite(derived) and abs(derived - stored) > _ROUNDING * sum(map(abs, products)):
-        result[3] = derived
+    normals, stored = result[..., :3], result[..., 3]
+    turned = rotations.to_matrix(orientations)[..., 2]
+    moved = ~np.all(np.abs(turned - normals) <= _ROUNDING, axis=-1, keepdims=True)
+    np.copyto(normals, turned, where=moved)
+    with np.errstate(all="ignore"):
+        products = normals * positions
+        derived, size = products.sum(axis=-1), np.abs(products).sum(axis=-1)
+        away = np.isfinite(derived) & (np.abs(derived - stored) > _ROUNDING * size)
+    result[..., 3] = np.where(away, derived, stored)
     return result

@@ -26,6 +26,7 @@ __all__ = [
     "rotate_tensor",
     "to_axis_angle",
     "to_matrix",
+    "turned",
     "unrotate",
 ]
 
@@ -41,16 +42,19 @@ def _floats(value: ArrayLike) -> Floats:
 def multiply(first: ArrayLike, second: ArrayLike) -> Floats:
     """Hamilton product: the rotation `second` followed by `first`. (..., 4) and (..., 4)."""
     p, q = _floats(first), _floats(second)
-    pw, px, py, pz = (p[..., i] for i in range(4))
-    qw, qx, qy, qz = (q[..., i] for i in range(4))
     return np.stack(
-        [
-            pw * qw - px * qx - py * qy - pz * qz,
-            pw * qx + px * qw + py * qz - pz * qy,
-            pw * qy - px * qz + py * qw + pz * qx,
-            pw * qz + px * qy - py * qx + pz * qw,
-        ],
-        axis=-1,
+        _product(tuple(p[..., i] for i in range(4)), tuple(q[..., i] for i in range(4))), axis=-1
+    )
+
+
+def _product(p: tuple[Any, ...], q: tuple[Any, ...]) -> tuple[Any, Any, Any, Any]:
+    pw, px, py, pz = p
+    qw, qx, qy, qz = q
+    return (
+        pw * qw - px * qx - py * qy - pz * qz,
+        pw * qx + px * qw + py * qz - pz * qy,
+        pw * qy - px * qz + py * qw + pz * qx,
+        pw * qz + px * qy - py * qx + pz * qw,
     )
 
 
@@ -162,6 +166,20 @@ def fixed_angles(x: ArrayLike, y: ArrayLike, z: ArrayLike) -> Floats:
     about_y = from_axis_angle((0.0, 1.0, 0.0), y)
     about_z = from_axis_angle((0.0, 0.0, 1.0), z)
     return multiply(about_z, multiply(about_y, about_x))
+
+
+def turned(
+    quaternion: tuple[float, ...], x: float, y: float, z: float
+) -> tuple[float, float, float, float]:
+    """A single rotation followed by `fixed_angles`, at length one; quick, without arrays."""
+    x, y, z = 0.5 * x, 0.5 * y, 0.5 * z
+    turn = _product((math.cos(y), 0.0, math.sin(y), 0.0), (math.cos(x), math.sin(x), 0.0, 0.0))
+    turn = _product((math.cos(z), 0.0, 0.0, math.sin(z)), turn)
+    product = _product(turn, quaternion)
+    exponent = math.frexp(max(map(abs, product)))[1]
+    w, x, y, z = (math.ldexp(number, -exponent) for number in product)
+    length = math.sqrt(w * w + x * x + y * y + z * z)
+    return w / length, x / length, y / length, z / length
 
 
 def between(start: ArrayLike, end: ArrayLike) -> Floats:

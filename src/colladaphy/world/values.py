@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import operator
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,6 +18,7 @@ from colladaphy.world.rules import (
     INERTIA,
     MASS,
     NUMBER,
+    SYSTEM_ID,
     USER_ID,
     refuse,
 )
@@ -25,22 +26,31 @@ from colladaphy.world.rules import (
 __all__ = [
     "array",
     "column",
+    "finite",
+    "fitting",
     "flag",
     "inertia",
+    "instance",
     "integer",
     "mass",
+    "names",
+    "new_system_id",
+    "new_system_ids",
     "normal",
     "number",
+    "optional",
     "positive",
     "positives",
     "quaternion",
     "text",
     "user_id",
     "vector",
+    "whole",
 ]
 
 Floats = NDArray[np.float64]
 Scalar = TypeVar("Scalar", bound=np.generic)
+Value = TypeVar("Value")
 
 # Far above what rounding does to a unit vector, far below what anybody means by another length.
 _UNIT_TOLERANCE = 1e-9
@@ -52,7 +62,7 @@ def array(value: Any) -> NDArray[Any] | None:
     """An array of numbers, new; None if it is none. Texts are not numbers."""
     try:
         result = np.array(value)
-        if result.dtype == object and not any(isinstance(item, str) for item in result.flat):
+        if result.dtype.kind == "O" and not any(isinstance(item, str) for item in result.flat):
             result = result.astype(np.float64)  # numbers beyond 64 bits, fractions
     except (TypeError, ValueError, OverflowError):
         return None
@@ -68,7 +78,7 @@ def vector(what: str, value: ArrayLike, count: int = 3, rule: Rule = NUMBER) -> 
         or not all(map(math.isfinite, numbers.tolist()))
     ):
         raise refuse(rule, f"The {what} is {value!r}: {count} finite numbers are needed.")
-    return numbers.astype(np.float64, copy=False)
+    return numbers if numbers.dtype == np.float64 else numbers.astype(np.float64)
 
 
 def quaternion(value: ArrayLike) -> Floats:
@@ -144,6 +154,14 @@ def inertia(value: ArrayLike) -> Floats:
     return numbers.astype(np.float64, copy=False)
 
 
+def whole(what: str, value: int) -> int:
+    """A whole number, zero or greater."""
+    result = integer(what, value)
+    if result < 0:
+        raise refuse(ARGUMENT, f"The {what} is {value!r}; it is never negative.")
+    return result
+
+
 def integer(what: str, value: int, rule: Rule = ARGUMENT) -> int:
     """A whole number of any size."""
     try:
@@ -174,21 +192,90 @@ def text(what: str, value: str) -> str:
     raise refuse(ARGUMENT, f"The {what} is {value!r}, not a text.")
 
 
-def column(
-    name: str, given: ArrayLike, dtype: type[Scalar], shape: tuple[int, ...]
-) -> NDArray[Scalar]:
-    """An array of a type and shape; not copied where it has them already."""
+def optional(check: Callable[[str, Any], Value]) -> Callable[[str, Any], Value | None]:
+    """The same check, which lets None pass."""
+    return lambda what, value: None if value is None else check(what, value)
+
+
+def instance(kind: type[Value]) -> Callable[[str, Any], Value]:
+    """A check for the objects of a class."""
+
+    def check(what: str, value: Any) -> Value:
+        if isinstance(value, kind):
+            return value
+        raise refuse(ARGUMENT, f"The {what} is {value!r}, not an object of {kind.__name__}.")
+
+    return check
+
+
+def fitting(name: str, given: ArrayLike, dtype: type[Scalar]) -> NDArray[Scalar]:
+    """An array of a type; not copied where it has it already."""
     try:
         numbers = np.asarray(given)
     except (TypeError, ValueError, OverflowError) as error:
         raise refuse(COLUMNS, f"The column {name} is not an array of numbers.") from error
-    if numbers.shape != shape:
-        raise refuse(COLUMNS, f"The column {name} has the shape {numbers.shape}, not {shape}.")
-    kind = np.dtype(dtype).kind
-    if numbers.dtype.kind not in _TAKES[kind] and numbers.size:
+    if numbers.dtype.kind not in _TAKES[np.dtype(dtype).kind] and numbers.size:
         # Whole numbers may come as floats, and flags as 0 and 1.
         with np.errstate(all="ignore"):
             exact = numbers.dtype.kind in "fiub" and np.array_equal(numbers.astype(dtype), numbers)
         if not exact:
             raise refuse(COLUMNS, f"The column {name} does not hold what it is for.")
     return numbers.astype(dtype, copy=False)
+
+
+def finite(what: str, value: float) -> float:
+    """A finite number."""
+    result = number(what, value, NUMBER)
+    if not math.isfinite(result):
+        raise refuse(NUMBER, f"The {what} is {result!r}.")
+    return result
+
+
+def column(
+    name: str, given: ArrayLike, dtype: type[Scalar], shape: tuple[int, ...]
+) -> NDArray[Scalar]:
+    """An array of a type and shape; not copied where it has them already."""
+    numbers = fitting(name, given, dtype)
+    if numbers.shape != shape:
+        raise refuse(COLUMNS, f"The column {name} has the shape {numbers.shape}, not {shape}.")
+    return numbers
+
+
+def names(sids: NDArray[np.int64], given: Sequence[str | None] | None) -> dict[int, str]:
+    """Names by system id, of the rows that have one."""
+    if given is None:
+        return {}
+    if len(given) != len(sids):
+        raise refuse(COLUMNS, f"There are {len(given)} names for {len(sids)} rows.")
+    pairs = zip(sids.tolist(), given, strict=True)
+    return {sid: text("name", name) for sid, name in pairs if name is not None}
+
+
+def new_system_ids(
+    given: ArrayLike | None, count: int, following: int, is_used: Callable[[int], bool]
+) -> NDArray[np.int64]:
+    """System ids (n,) for new rows: the next ones, or those given, if they are free."""
+    if given is None:
+        return np.arange(following, following + count, dtype=np.int64)
+    sids = column("sids", given, np.int64, (count,))
+    if count == 0:
+        return sids
+    ascending = bool(np.all(sids[1:] > sids[:-1]))
+    distinct = ascending or len(np.unique(sids)) == count
+    if sids.min() < 1 or sids.max() == 2**63 - 1 or not distinct:
+        raise refuse(SYSTEM_ID, "System ids are positive and differ from each other.")
+    if sids.min() < following:
+        for sid in sids[sids < following].tolist():
+            if is_used(sid):
+                raise refuse(SYSTEM_ID, f"The system id {sid} is in use.")
+    return sids
+
+
+def new_system_id(given: int | None, following: int, is_used: Callable[[int], bool]) -> int:
+    """The system id for one new row: the next one, or the one given, if it is free."""
+    if given is None:
+        return following
+    sid = integer("system id", given, SYSTEM_ID)
+    if not 0 < sid < 2**63 - 1 or (sid < following and is_used(sid)):
+        raise refuse(SYSTEM_ID, f"The system id {sid} is in use, or out of range.")
+    return sid

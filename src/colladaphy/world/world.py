@@ -2,93 +2,326 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, Unpack
 
-from colladaphy.world.attaching import Attaching
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from colladaphy.world import attaching, creating, rotations, uniting, values
+from colladaphy.world.attaching import FREE, Frame, JointOptions
+from colladaphy.world.attributes import Column, Setting
 from colladaphy.world.body import Body
-from colladaphy.world.joints import Joints
-from colladaphy.world.materials import Material, MaterialPair, PairOverride
-from colladaphy.world.rules import UNION_MEMBERS, refuse
+from colladaphy.world.columns import (
+    BODY_FIELDS,
+    JOINT_FIELDS,
+    MEMBER_FIELDS,
+    BodyColumns,
+    JointColumns,
+    MemberColumns,
+)
+from colladaphy.world.creating import BodyOptions
+from colladaphy.world.handles import Handles
+from colladaphy.world.joints import Joint, Joints
+from colladaphy.world.kinds import Kind
+from colladaphy.world.materials import Material, MaterialPair, MaterialValues, PairOverride
+from colladaphy.world.meshes import Mesh, MeshSource
+from colladaphy.world.rules import ARGUMENT, BODY_GONE, UNION_MEMBERS, refuse
+from colladaphy.world.storage import EngineState, Storage
+from colladaphy.world.table import Table
+from colladaphy.world.uniting import UnionOptions
 
-__all__ = ["Bodies", "World"]
+__all__ = ["World"]
 
-SHOWN = 5
-"""How many bodies the text of all bodies names."""
+Floats = NDArray[np.float64]
 
 
-class World(Attaching):
+class World:
     """Rigid bodies, joints and materials after the pe engine (thesis 2).
 
-    `gravity` (3,) is in units of length/s². `unit` is the unit of length: its name and its size in
-    metres. Nothing is converted: all lengths are in that unit, masses in kg, angles in radians.
-    `time_step` is the step that the scene asks for, None if it does not.
+    Nothing is converted: lengths are in the World's own unit, masses in kg, angles in radians.
+    What cannot be is refused with a WorldError.
+
+    Columns of the top-level bodies have one row a body, aligned with `bodies`. Every column is a
+    writable view of the World's own memory, so that ``world.positions += v`` moves all bodies. A
+    view is aligned until bodies are created, destroyed or joined to a union; take it anew after
+    that. Numbers that are written through a view are not checked.
     """
 
-    @property
-    def bodies(self) -> Bodies:
-        """The top-level bodies in the order of their system ids."""
-        return Bodies(self)
+    def __init__(
+        self,
+        gravity: ArrayLike = (0.0, 0.0, 0.0),
+        *,
+        unit: tuple[str, float] = ("meter", 1.0),
+        up_axis: str = "Z_UP",
+        time_step: float | None = None,
+        name: str | None = None,
+    ) -> None:
+        if not isinstance(unit, (tuple, list)) or len(unit) != 2:
+            raise refuse(ARGUMENT, f"The unit is {unit!r}, not a name and a size in metres.")
+        self.gravity = gravity
+        self.unit_name, self.unit_meter = unit
+        self.up_axis = up_axis
+        self.time_step = time_step
+        self.name = name
+        self.time = 0.0
+        self.step_count = 0
+        self.engine_state = None
+        storage = self._storage = Storage()
+        self.top, self.inner = storage.top, storage.inner
+        self.joint_table, self.joints_of = storage.joint_table, storage.joints_of
+        self.materials = storage.materials
+        """The materials, by name and by id."""
+        self.meshes = storage.meshes
+        """Meshes by id, each shared between any number of bodies."""
+        self.names, self.joint_names = storage.names, storage.joint_names
+        """Names by system id, of the bodies and joints that have one."""
+        self.children = storage.children
+        """System ids of the members of each union, by that of the union, in their order."""
+
+    # --- the scene
+
+    name = Setting(values.optional(values.text), "The name of the scene, if it has one.")
+    unit_name = Setting(values.text, "The name of the unit of length.")
+    unit_meter = Setting(values.positive, "The unit of length in metres.")
+    up_axis = Setting(values.text, "X_UP, Y_UP or Z_UP.")
+    time_step = Setting(values.optional(values.positive), "The step that the scene asks for.")
+    time = Setting(values.finite, "The clock, in seconds.")
+    step_count = Setting(values.whole, "How many steps engines have done.")
+    engine_state = Setting(
+        values.optional(values.instance(EngineState)), "What an engine needs to go on exactly."
+    )
 
     @property
-    def joints(self) -> Joints:
-        """The joints in the order of their system ids."""
-        return Joints(self)
+    def gravity(self) -> Floats:
+        """Acceleration (3,) of every body that is not fixed; writable."""
+        return self._gravity
+
+    @gravity.setter
+    def gravity(self, value: ArrayLike) -> None:
+        self._gravity = values.vector("gravity", value)
+
+    # --- bodies
+
+    @property
+    def bodies(self) -> Handles[Body]:
+        """The top-level bodies in the order of their system ids."""
+        return Handles(self._storage, self.top, Body, "bodies")
 
     def body(self, sid: int) -> Body:
         """The body, member or not, of a system id; WorldError if there is none."""
-        self.locate(sid)
-        return Body(self, sid)
+        sid = values.integer("system id", sid)
+        if sid not in self:
+            raise refuse(BODY_GONE, f"There is no body with the system id {sid}.")
+        return Body(self._storage, sid)
 
-    def body_or_none(self, sid: int) -> Body | None:
-        """The body of a system id, None for 0, which stands for the world itself."""
-        return Body(self, sid) if sid else None
+    def bodies_by_uid(self, uid: int) -> list[Body]:
+        """All bodies of a user id, members too, in the order of their system ids."""
+        uid = values.user_id(uid)
+        tables = (self.top, self.inner)
+        found = [table.column("sids")[table.column("uids") == uid] for table in tables]
+        return [Body(self._storage, sid) for sid in np.sort(np.concatenate(found)).tolist()]
+
+    def bodies_by_name(self, name: str) -> list[Body]:
+        """All bodies of a name, members too, in the order of their system ids."""
+        name = values.text("name", name)
+        found = sorted(sid for sid, own in self.names.items() if own == name)
+        return [Body(self._storage, sid) for sid in found]
+
+    def __contains__(self, body: object) -> bool:
+        """True for a body of this World that is alive, member or not, or for its system id."""
+        if isinstance(body, Body):
+            return body._storage is self._storage and body.sid in self._storage
+        if not isinstance(body, (int, np.integer)):
+            return False
+        return 0 < int(body) < 2**63 and int(body) in self._storage
 
     def destroy(self, body: Body) -> None:
         """Remove a top-level body, its members and the joints at it."""
-        self.check_own(body)
-        if self.parent_of(body.sid) is not None:
+        sid = self._sid(body)
+        if self.parent_of(sid) is not None:
             raise refuse(UNION_MEMBERS, f"{body!r} is a member of a union; destroy that.")
-        for joint in tuple(self.joints_of.get(body.sid, ())):
-            self.remove_joint(joint)
-        self._forget(body.sid)
+        for joint in tuple(self.joints_of.get(sid, ())):
+            self._storage.destroy_joint(joint)
+        self._storage.destroy(sid)
 
-    def _forget(self, sid: int) -> None:
-        for member in self.children.pop(sid, ()):
-            self._forget(member)
-        table, row = self.locate(sid)
-        table.remove(row)
-        self.names.pop(sid, None)
+    def _sid(self, body: Body | None) -> int:
+        """The system id of a body that is alive in this World."""
+        if not isinstance(body, Body):
+            raise refuse(ARGUMENT, f"{body!r} is not a body.")
+        if body._storage is not self._storage:
+            raise refuse(BODY_GONE, f"{body!r} belongs to another World.")
+        self.locate(body.sid)
+        return body.sid
+
+    # --- creators
+
+    def create_sphere(
+        self,
+        uid: int,
+        position: ArrayLike,
+        radius: float,
+        material: Material | str | int,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A sphere."""
+        sizes = (values.positive("radius", radius), 0.0, 0.0, 0.0)
+        return self._create(Kind.SPHERE, uid, position, sizes, material, **options)
+
+    def create_box(
+        self,
+        uid: int,
+        position: ArrayLike,
+        lengths: ArrayLike,
+        material: Material | str | int,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A box of full side lengths (3,)."""
+        x, y, z = values.positives("side length", lengths, 3)
+        return self._create(Kind.BOX, uid, position, (x, y, z, 0.0), material, **options)
+
+    def create_capsule(
+        self,
+        uid: int,
+        position: ArrayLike,
+        radius: ArrayLike,
+        length: float,
+        material: Material | str | int,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A capsule along x; `length` excludes the caps.
+
+        `radius` is a number, or the semi-axes x (of the caps), y and z.
+        """
+        x, y, z = values.positives("radius", radius, 3)
+        sizes = (x, y, z, values.positive("length", length))
+        return self._create(Kind.CAPSULE, uid, position, sizes, material, **options)
+
+    def create_cylinder(
+        self,
+        uid: int,
+        position: ArrayLike,
+        radius: ArrayLike,
+        length: float,
+        material: Material | str | int,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A cylinder along x. `radius` is a number, or the semi-axes y and z."""
+        y, z = values.positives("radius", radius, 2)
+        sizes = (0.0, y, z, values.positive("length", length))
+        return self._create(Kind.CYLINDER, uid, position, sizes, material, **options)
+
+    def create_ellipsoid(
+        self,
+        uid: int,
+        position: ArrayLike,
+        radii: ArrayLike,
+        material: Material | str | int,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """An ellipsoid of semi-axes (3,)."""
+        x, y, z = values.positives("radius", radii, 3)
+        return self._create(Kind.ELLIPSOID, uid, position, (x, y, z, 0.0), material, **options)
+
+    def create_plane(
+        self,
+        uid: int,
+        normal: ArrayLike,
+        displacement: float | None,
+        material: Material | str | int,
+        *,
+        position: ArrayLike | None = None,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A half space, solid where normal·x < displacement; fixed and infinite.
+
+        The normal points out of the solid. Instead of the displacement (None), a point of the
+        surface may be given as `position`, which is then kept.
+        """
+        anchor, sizes = creating.plane(normal, displacement, position)
+        if "orientation" not in options:
+            options["orientation"] = rotations.between((0.0, 0.0, 1.0), sizes[:3])
+        return self._create(Kind.PLANE, uid, anchor, sizes, material, **options)
+
+    def create_mesh(
+        self,
+        uid: int,
+        position: ArrayLike,
+        vertices: ArrayLike | Mesh,
+        faces: ArrayLike | None,
+        material: Material | str | int,
+        *,
+        convex: bool = False,
+        **options: Unpack[BodyOptions],
+    ) -> Body:
+        """A body enclosed by a closed surface of triangles, its centre of mass at `position`.
+
+        `vertices` (n, 3) and `faces` (m, 3), see `Mesh`; or a mesh of this World (faces None),
+        which the bodies then share.
+        """
+        made = creating.create_mesh(
+            self._storage, uid, position, vertices, faces, material, convex, **options
+        )
+        return Body(self._storage, made)
+
+    def _create(self, *arguments: Any, **options: Unpack[BodyOptions]) -> Body:
+        return Body(self._storage, creating.create(self._storage, *arguments, **options))
+
+    def create_union(
+        self, uid: int, members: Sequence[Body], **options: Unpack[UnionOptions]
+    ) -> Body:
+        """Join top-level bodies to one body; a nested union counts as one body (thesis 2.1).
+
+        By pe's rules, the centre of mass becomes the position, the orientation starts as
+        identity, masses add up, inertias by the parallel-axis theorem; a fixed member fixes the
+        union and a plane makes it infinite. Momentum is kept. Members keep their place in the
+        world. Each of these values can be given instead, and is then stored as it is.
+
+        The option `members_are_local` says that the poses of the members are already relative to
+        the union: they are stored as they are. Joints at members go over to the union.
+        """
+        try:
+            sids = [self._sid(body) for body in members]
+        except TypeError as error:
+            raise refuse(ARGUMENT, f"{members!r} are no bodies.") from error
+        return Body(self._storage, uniting.create_union(self._storage, uid, sids, **options))
+
+    def extend(
+        self, columns: BodyColumns, members: MemberColumns | None = None
+    ) -> NDArray[np.int64]:
+        """Create many bodies at once; returns their system ids (n,).
+
+        With `members`, some of the bodies may be unions, of the members whose parents they are,
+        and members may be unions too. Either all are created or, on WorldError, none. Quaternions
+        and normals have to be of length one.
+        """
+        return creating.extend(self._storage, columns, members)
+
+    # --- meshes and materials
+
+    def add_mesh(
+        self,
+        vertices: ArrayLike,
+        faces: ArrayLike,
+        *,
+        convex: bool = False,
+        id: int | None = None,
+    ) -> Mesh:
+        """Add a mesh for any number of bodies to share."""
+        return self.add_meshes([(vertices, faces, convex)], None if id is None else [id])[0]
+
+    def add_meshes(self, sources: Sequence[MeshSource], ids: ArrayLike | None = None) -> list[Mesh]:
+        """Add many meshes at once: of each the vertices, the faces and whether it is convex.
+
+        Either all are added or, on WorldError, none.
+        """
+        return creating.add_meshes(self._storage, sources, ids)
 
     def create_material(
-        self,
-        name: str,
-        *,
-        density: float,
-        restitution: float,
-        static_friction: float,
-        dynamic_friction: float,
-        poisson_ratio: float,
-        young_modulus: float,
-        stiffness: float,
-        damping_normal: float,
-        damping_tangential: float,
-        id: int | None = None,
+        self, name: str, *, id: int | None = None, **numbers: Unpack[MaterialValues]
     ) -> Material:
         """Add a material (thesis 4.4). Names and ids are unique; WorldError on bad values."""
-        return self.materials.create(
-            name,
-            id=id,
-            density=density,
-            restitution=restitution,
-            static_friction=static_friction,
-            dynamic_friction=dynamic_friction,
-            poisson_ratio=poisson_ratio,
-            young_modulus=young_modulus,
-            stiffness=stiffness,
-            damping_normal=damping_normal,
-            damping_tangential=damping_tangential,
-        )
+        return self.materials.create(name, id=id, **numbers)
 
     def pair(self, first: Material | str | int, second: Material | str | int) -> MaterialPair:
         """What holds where two materials meet: pe's rules and what was set by hand."""
@@ -104,46 +337,228 @@ class World(Attaching):
         dynamic_friction: float | None = None,
     ) -> None:
         """Set restitution and frictions of a pair; None leaves them to pe's rules."""
-        self.materials.override(
-            self.materials.resolve(first),
-            self.materials.resolve(second),
-            restitution,
-            static_friction,
-            dynamic_friction,
-        )
+        one, two = self.materials.resolve(first), self.materials.resolve(second)
+        self.materials.override(one, two, restitution, static_friction, dynamic_friction)
 
     @property
     def pair_overrides(self) -> tuple[PairOverride, ...]:
         """The pairs set by hand, ordered by the ids of their materials."""
         return self.materials.overrides
 
+    # --- joints; a body of None is the world, and a member stands for its union
+
+    @property
+    def joints(self) -> Joints:
+        """The joints in the order of their system ids."""
+        return Joints(self._storage)
+
+    def attach_fixed_joint(
+        self,
+        body1: Body | None,
+        body2: Body | None,
+        anchor1: ArrayLike | None = None,
+        anchor2: ArrayLike | None = None,
+        **options: Unpack[JointOptions],
+    ) -> Joint:
+        """Hold two bodies as they lie to each other.
+
+        Anchors are points relative to each body. By default the joint is at the centre of body 2;
+        one anchor determines the other. `options` are those of `attach_joint`.
+        """
+        return self._along(body1, body2, anchor1, anchor2, None, options)
+
+    def attach_hinge_joint(
+        self,
+        body1: Body | None,
+        body2: Body | None,
+        anchor1: ArrayLike | None = None,
+        anchor2: ArrayLike | None = None,
+        *,
+        axis: ArrayLike,
+        limits: tuple[float, float] = (-np.inf, np.inf),
+        **options: Unpack[JointOptions],
+    ) -> Joint:
+        """Let body 2 turn about `axis` (3,), given in the frame of body 1, within `limits`."""
+        low, high = attaching.one_axis(limits)
+        given: JointOptions = {"angular_min": low, "angular_max": high, **options}
+        return self._along(body1, body2, anchor1, anchor2, axis, given)
+
+    def attach_slider_joint(
+        self,
+        body1: Body | None,
+        body2: Body | None,
+        anchor1: ArrayLike | None = None,
+        anchor2: ArrayLike | None = None,
+        *,
+        axis: ArrayLike,
+        limits: tuple[float, float] = (-np.inf, np.inf),
+        **options: Unpack[JointOptions],
+    ) -> Joint:
+        """Let body 2 slide along `axis` (3,), given in the frame of body 1, within `limits`."""
+        low, high = attaching.one_axis(limits)
+        given: JointOptions = {"linear_min": low, "linear_max": high, **options}
+        return self._along(body1, body2, anchor1, anchor2, axis, given)
+
+    def attach_ball_joint(
+        self,
+        body1: Body | None,
+        body2: Body | None,
+        anchor1: ArrayLike | None = None,
+        anchor2: ArrayLike | None = None,
+        **options: Unpack[JointOptions],
+    ) -> Joint:
+        """Let body 2 turn about a point in any direction."""
+        low = tuple(-value for value in FREE)
+        given: JointOptions = {"angular_min": low, "angular_max": FREE, **options}
+        return self._along(body1, body2, anchor1, anchor2, None, given)
+
+    def attach_joint(
+        self,
+        body1: Body | None,
+        body2: Body | None,
+        *,
+        frame1: Frame = attaching.AT_CENTRE,
+        frame2: Frame = attaching.AT_CENTRE,
+        **options: Unpack[JointOptions],
+    ) -> Joint:
+        """Bind two bodies with six degrees of freedom, each locked, limited or free.
+
+        Everything is stored as it is given; see `colladaphy.world.attaching` for what it means.
+        """
+        sids = self._sid_or_world(body1), self._sid_or_world(body2)
+        made = attaching.attach(self._storage, *sids, frame1=frame1, frame2=frame2, **options)
+        return Joint(self._storage, made)
+
+    def _along(
+        self,
+        body1: Body | None,
+        body2: Body | None,
+        anchor1: ArrayLike | None,
+        anchor2: ArrayLike | None,
+        axis: ArrayLike | None,
+        options: JointOptions,
+    ) -> Joint:
+        sids = self._sid_or_world(body1), self._sid_or_world(body2)
+        made = attaching.attach_along(self._storage, *sids, anchor1, anchor2, axis, **options)
+        return Joint(self._storage, made)
+
+    def _sid_or_world(self, body: Body | None) -> int:
+        return 0 if body is None else self._sid(body)
+
+    def extend_joints(self, columns: JointColumns) -> NDArray[np.int64]:
+        """Create many joints at once, stored as they are given; returns their system ids (n,).
+
+        Bodies are top-level ones. Either all are created or, on WorldError, none.
+        """
+        return attaching.extend_joints(self._storage, columns)
+
+    def destroy_joint(self, joint: Joint) -> None:
+        """Remove a joint; the bodies stay."""
+        if not isinstance(joint, Joint):
+            raise refuse(ARGUMENT, f"{joint!r} is not a joint.")
+        if joint._storage is not self._storage:
+            raise refuse(BODY_GONE, f"{joint!r} belongs to another World.")
+        self._storage.destroy_joint(joint.sid)
+
+    # --- columns
+
+    uids = Column(np.int64, "User ids (n,).")
+    positions = Column(np.float64, "Centres of mass (n, 3). A union takes its members along.")
+    orientations = Column(np.float64, "Quaternions (w, x, y, z), (n, 4).")
+    linear_velocities = Column(np.float64, "Velocities of the centres of mass (n, 3).")
+    angular_velocities = Column(np.float64, "In rad/s, in the world frame (n, 3).")
+    forces = Column(np.float64, "Forces (n, 3) that act during the next step.")
+    torques = Column(np.float64, "Torques (n, 3) that act during the next step.")
+    masses = Column(np.float64, "Masses (n,), 0 for infinite bodies.")
+    inertias = Column(np.float64, "About the centre of mass, in the body frame (n, 3, 3).")
+    fixed = Column(np.bool_, "True for bodies that nothing moves (n,).")
+    sleeping = Column(np.bool_, "True for bodies that an engine has put to sleep (n,).")
+    material_ids = Column(np.int64, "Ids of materials (n,), -1 for a union.")
+    hollow = Column(np.bool_, "True where the mass is on the surface (n,).")
+
+    @property
+    def sids(self) -> NDArray[np.int64]:
+        """System ids (n,), ascending, read-only."""
+        return self.top.frozen("sids")
+
+    @property
+    def kinds(self) -> NDArray[np.int8]:
+        """Numbers of `Kind` (n,), read-only."""
+        return self.top.frozen("kinds")
+
+    @property
+    def mesh_ids(self) -> NDArray[np.int64]:
+        """Ids of meshes (n,), -1 for bodies that are none, read-only."""
+        return self.top.frozen("mesh_ids")
+
+    @property
+    def dimensions(self) -> Floats:
+        """Dimensions (n, 4) as `colladaphy.world.shapes` lays them out, read-only.
+
+        Planes that were moved have their new normal and displacement.
+        """
+        return self._storage.dimensions_of(self.top)
+
+    def columns(self) -> BodyColumns:
+        """All columns of the top-level bodies at once, unions among them; `extend` takes these."""
+        self._storage.dimensions_of(self.top)
+        return BodyColumns(**_views(self.top, BODY_FIELDS, self.names))
+
+    @property
+    def member_columns(self) -> MemberColumns:
+        """The members of all unions by column; writable views, poses relative to the union."""
+        self._storage.dimensions_of(self.inner)
+        return MemberColumns(**_views(self.inner, MEMBER_FIELDS, self.names))
+
+    @property
+    def joint_columns(self) -> JointColumns:
+        """The joints by column; writable views."""
+        return JointColumns(**_views(self.joint_table, JOINT_FIELDS, self.joint_names))
+
+    # --- system ids
+
+    @property
+    def next_body_sid(self) -> int:
+        """The system id that the next body gets: a counter, so that none is used twice."""
+        return self._storage.next_body_sid
+
+    @next_body_sid.setter
+    def next_body_sid(self, value: int) -> None:
+        self._storage.next_body_sid = values.whole("next system id", value)
+
+    @property
+    def next_joint_sid(self) -> int:
+        """The system id that the next joint gets."""
+        return self._storage.next_joint_sid
+
+    @next_joint_sid.setter
+    def next_joint_sid(self, value: int) -> None:
+        self._storage.next_joint_sid = values.whole("next system id", value)
+
+    def locate(self, sid: int) -> tuple[Table, int]:
+        """The table and the row that hold a body; WorldError if there is none."""
+        return self._storage.locate(sid)
+
+    def parent_of(self, sid: int) -> int | None:
+        """The system id of the union that a body is a member of, or None."""
+        return self._storage.parent_of(sid)
+
+    def root_of(self, sid: int) -> int:
+        """The system id of the outermost union of a body, or its own."""
+        return self._storage.root_of(sid)
+
+    def is_infinite(self, sid: int) -> bool:
+        """True for planes and for unions that hold one."""
+        return self._storage.is_infinite(sid)
+
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
         return f"<World{name} of {len(self.top)} bodies, {len(self.joints)} joints>"
 
 
-class Bodies(Sequence[Body]):
-    """The top-level bodies of a World, by their place in the order of system ids."""
-
-    __slots__ = ("_world",)
-
-    def __init__(self, world: World) -> None:
-        self._world = world
-
-    def __len__(self) -> int:
-        return len(self._world.top)
-
-    def __getitem__(self, index: Any) -> Any:
-        sids = self._world.top.column("sids")[index]
-        if isinstance(index, slice):
-            return [Body(self._world, sid) for sid in sids.tolist()]
-        return Body(self._world, int(sids))
-
-    def __iter__(self) -> Iterator[Body]:
-        for sid in self._world.top.column("sids").tolist():
-            yield Body(self._world, sid)
-
-    def __repr__(self) -> str:
-        first = [repr(body) for body in self[:SHOWN]]
-        more = ["…"] if len(self) > SHOWN else []
-        return f"<{len(self)} bodies: {', '.join(first + more) or 'none'}>"
+def _views(table: Table, fields: Any, names: dict[int, str]) -> dict[str, Any]:
+    """All columns of a table, as the dataclass for them takes them."""
+    sids = table.frozen("sids")
+    columns = {name: table.column(name) for name in fields}
+    listed = [names.get(sid) for sid in sids.tolist()] if names else None
+    return {"sids": sids, **columns, "names": listed}
