@@ -103,3 +103,14 @@ def test_other_constraints_of_that_model_stay() -> None:
     other = INSTANCE.replace("b1", "b2")
     tree = physics(bodies=bodies, more=joint, instances=2 * INSTANCE + other + USE)
     assert mended(tree)[1] == []
+
+
+def test_an_instance_of_a_node_that_is_no_node_is_set_aside() -> None:
+    uses = '<instance_node url="#ps"/><instance_node url="#n2"/>'
+    nodes = f'<node id="n1">{uses}</node><node id="n2"/>'
+    root, findings = mended(physics(BOX, nodes=nodes))
+    node = root.find(f".//{C}node")
+    assert [child.get("url") for child in node.iterchildren(C + "instance_node")] == ["#n2"]
+    assert 'url="#ps"' in kept(root)
+    assert codes(findings) == {"repair-dangling-instance"}
+    assert "<physics_scene>" in findings[0].message

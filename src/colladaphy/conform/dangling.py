@@ -28,6 +28,11 @@ def set_aside_dangling(context: Context) -> None:
             found = context.by_url(url) if url.startswith("#") else None
             if (found is None or local(found) != kind) and not is_elsewhere(url):
                 _set_aside(context, instance, f"there is no <{kind}> {url!r}")
+    for instance in context.all("instance_node"):
+        url = instance.get("url", "")
+        found = context.by_url(url) if url.startswith("#") else None
+        if found is not None and local(found) != "node":
+            _set_aside(context, instance, f"{url!r} is a <{local(found)}>, not a <node>")
     models = _Models(context)
     _set_constraints_aside(context, models)
     for kind, key in (("rigid_body", "body"), ("rigid_constraint", "constraint")):
