@@ -52,10 +52,16 @@ class Column(Generic[Scalar]):
 
 
 class Setting(Generic[Value]):
-    """A single value that goes through a check: a function of its name and what is assigned."""
+    """A single value that goes through a check: a function of its name and what is assigned.
 
-    def __init__(self, check: Callable[[str, Any], Value], description: str) -> None:
+    It is kept where it is set, or in the attribute `of`.
+    """
+
+    def __init__(
+        self, check: Callable[[str, Any], Value], description: str, *, of: str | None = None
+    ) -> None:
         self._check = check
+        self._of = of
         self.__doc__ = description
 
     def __set_name__(self, owner: type, name: str) -> None:
@@ -68,8 +74,11 @@ class Setting(Generic[Value]):
     def __get__(self, holder: object | None, owner: type) -> Setting[Value] | Value:
         if holder is None:
             return self
-        value: Value = holder.__dict__[self._name]
+        value: Value = self._home(holder)[self._name]
         return value
 
     def __set__(self, holder: object, value: Value) -> None:
-        holder.__dict__[self._name] = self._check(self._name.replace("_", " "), value)
+        self._home(holder)[self._name] = self._check(self._name.replace("_", " "), value)
+
+    def _home(self, holder: object) -> dict[str, Any]:
+        return vars(holder if self._of is None else vars(holder)[self._of])

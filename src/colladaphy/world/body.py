@@ -11,12 +11,12 @@ from colladaphy.world import planes, rotations, values
 from colladaphy.world.kinds import Kind
 from colladaphy.world.materials import Material
 from colladaphy.world.meshes import Mesh
-from colladaphy.world.rules import KIND, UNION_MEMBERS, KindError, refuse
+from colladaphy.world.rules import ARGUMENT, BODY_GONE, KIND, UNION_MEMBERS, KindError, refuse
 from colladaphy.world.shapes import volume
 from colladaphy.world.storage import Storage
 from colladaphy.world.uniting import place
 
-__all__ = ["Body"]
+__all__ = ["Body", "sid_of", "sid_or_world"]
 
 Floats = NDArray[np.float64]
 
@@ -334,3 +334,18 @@ def _frozen(array: Floats) -> Floats:
     """A copy that nobody can take for the World's own memory."""
     array.flags.writeable = False
     return array
+
+
+def sid_of(storage: Storage, body: Body) -> int:
+    """The system id of a body that is alive in a World, or WorldError."""
+    if not isinstance(body, Body):
+        raise refuse(ARGUMENT, f"{body!r} is not a body.")
+    if body._storage is not storage:
+        raise refuse(BODY_GONE, f"{body!r} belongs to another World.")
+    storage.locate(body.sid)
+    return body.sid
+
+
+def sid_or_world(storage: Storage, body: Body | None) -> int:
+    """The same, or 0 for None, which stands for the world itself."""
+    return 0 if body is None else sid_of(storage, body)

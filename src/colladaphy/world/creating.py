@@ -13,7 +13,7 @@ from colladaphy.world import rotations, values
 from colladaphy.world.columns import BodyColumns, MemberColumns
 from colladaphy.world.creation import infinite_unions, prepare, prepare_members, prepare_one
 from colladaphy.world.kinds import Kind
-from colladaphy.world.materials import Material
+from colladaphy.world.materials import AnyMaterial
 from colladaphy.world.meshes import Mesh, MeshSource, make_meshes
 from colladaphy.world.rules import ARGUMENT, COLUMNS, DIMENSION, MESH, refuse
 from colladaphy.world.storage import Storage
@@ -44,7 +44,7 @@ def create(
     uid: int,
     position: ArrayLike,
     dimensions: tuple[float, float, float, float],
-    material: Material | str | int,
+    material: AnyMaterial,
     mesh_id: int = -1,
     *,
     orientation: ArrayLike = rotations.IDENTITY,
@@ -111,7 +111,7 @@ def create_mesh(
     position: ArrayLike,
     vertices: ArrayLike | Mesh,
     faces: ArrayLike | None,
-    material: Material | str | int,
+    material: AnyMaterial,
     convex: bool,
     **options: Unpack[BodyOptions],
 ) -> int:

@@ -1,21 +1,39 @@
-"""Light handles to the joints of a World."""
+"""Light handles to the joints of a World, and the methods of `World` that make them."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Protocol, Unpack
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from colladaphy.world import values
-from colladaphy.world.attaching import Spring
-from colladaphy.world.body import Body
+from colladaphy.world.attaching import (
+    AT_CENTRE,
+    FREE,
+    Frame,
+    JointOptions,
+    Spring,
+    attach,
+    attach_along,
+    one_axis,
+)
+from colladaphy.world.body import Body, sid_or_world
 from colladaphy.world.columns import JOINT_FIELDS
 from colladaphy.world.handles import Handles
 from colladaphy.world.kinds import JointKind
 from colladaphy.world.storage import Storage
 
-__all__ = ["JOINT_FIELDS", "Joint", "Joints"]
+__all__ = [
+    "JOINT_FIELDS",
+    "Joint",
+    "Joints",
+    "attach_ball_joint",
+    "attach_fixed_joint",
+    "attach_hinge_joint",
+    "attach_joint",
+    "attach_slider_joint",
+]
 
 Floats = NDArray[np.float64]
 
@@ -180,3 +198,79 @@ class Joints(Handles[Joint]):
     def columns(self) -> dict[str, NDArray[Any]]:
         """All columns by name (``sids`` and those of `JOINT_FIELDS`), writable views."""
         return {name: self._table.column(name) for name in ("sids", *JOINT_FIELDS)}
+
+
+class HasStorage(Protocol):
+    """A World, as far as it is needed here."""
+
+    _storage: Storage
+
+
+def attach_fixed_joint(
+    self: HasStorage, body1: Body | None, body2: Body | None,
+    anchor1: ArrayLike | None = None, anchor2: ArrayLike | None = None,
+    **options: Unpack[JointOptions],
+) -> Joint:  # fmt: skip
+    """Hold two bodies as they lie to each other.
+
+    Anchors are points relative to each body. By default the joint is at the centre of body 2;
+    one anchor determines the other. `options` are those of `attach_joint`.
+    """
+    return _along(self._storage, body1, body2, anchor1, anchor2, None, options)
+
+
+def attach_hinge_joint(
+    self: HasStorage, body1: Body | None, body2: Body | None,
+    anchor1: ArrayLike | None = None, anchor2: ArrayLike | None = None, *,
+    axis: ArrayLike, limits: tuple[float, float] = (-np.inf, np.inf),
+    **options: Unpack[JointOptions],
+) -> Joint:  # fmt: skip
+    """Let body 2 turn about `axis` (3,), given in the frame of body 1, within `limits`."""
+    low, high = one_axis(limits)
+    given: JointOptions = {"angular_min": low, "angular_max": high, **options}
+    return _along(self._storage, body1, body2, anchor1, anchor2, axis, given)
+
+
+def attach_slider_joint(
+    self: HasStorage, body1: Body | None, body2: Body | None,
+    anchor1: ArrayLike | None = None, anchor2: ArrayLike | None = None, *,
+    axis: ArrayLike, limits: tuple[float, float] = (-np.inf, np.inf),
+    **options: Unpack[JointOptions],
+) -> Joint:  # fmt: skip
+    """Let body 2 slide along `axis` (3,), given in the frame of body 1, within `limits`."""
+    low, high = one_axis(limits)
+    given: JointOptions = {"linear_min": low, "linear_max": high, **options}
+    return _along(self._storage, body1, body2, anchor1, anchor2, axis, given)
+
+
+def attach_ball_joint(
+    self: HasStorage, body1: Body | None, body2: Body | None,
+    anchor1: ArrayLike | None = None, anchor2: ArrayLike | None = None,
+    **options: Unpack[JointOptions],
+) -> Joint:  # fmt: skip
+    """Let body 2 turn about a point in any direction."""
+    low = tuple(-value for value in FREE)
+    given: JointOptions = {"angular_min": low, "angular_max": FREE, **options}
+    return _along(self._storage, body1, body2, anchor1, anchor2, None, given)
+
+
+def attach_joint(
+    self: HasStorage, body1: Body | None, body2: Body | None, *,
+    frame1: Frame = AT_CENTRE, frame2: Frame = AT_CENTRE,
+    **options: Unpack[JointOptions],
+) -> Joint:  # fmt: skip
+    """Bind two bodies with six degrees of freedom, each locked, limited or free.
+
+    Everything is stored as it is given; see `colladaphy.world.attaching` for what it means.
+    """
+    sids = sid_or_world(self._storage, body1), sid_or_world(self._storage, body2)
+    made = attach(self._storage, *sids, frame1=frame1, frame2=frame2, **options)
+    return Joint(self._storage, made)
+
+
+def _along(
+    storage: Storage, body1: Body | None, body2: Body | None, anchor1: ArrayLike | None,
+    anchor2: ArrayLike | None, axis: ArrayLike | None, options: JointOptions,
+) -> Joint:  # fmt: skip
+    sids = sid_or_world(storage, body1), sid_or_world(storage, body2)
+    return Joint(storage, attach_along(storage, *sids, anchor1, anchor2, axis, **options))

@@ -21,7 +21,7 @@ from colladaphy.world.rules import (
 )
 from colladaphy.world.table import Table
 
-__all__ = ["Material", "MaterialPair", "MaterialValues", "Materials", "PairOverride"]
+__all__ = ["AnyMaterial", "Material", "MaterialPair", "MaterialValues", "Materials", "PairOverride"]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,6 +97,10 @@ _DEFAULTS = (
     ("oak", 800.0, 0.35, 11.0),
     ("fir", 500.0, 0.34, 13.0),
 )
+
+
+AnyMaterial = Material | str | int
+"""A material, its name or its id."""
 
 
 class MaterialValues(TypedDict):
@@ -265,7 +269,7 @@ class Materials:
     def __len__(self) -> int:
         return len(self._names)
 
-    def resolve(self, material: Material | str | int) -> Material:
+    def resolve(self, material: AnyMaterial) -> Material:
         """The material of this World that is meant, or WorldError."""
         if isinstance(material, Material):
             if self._made.get(material.id) is material:

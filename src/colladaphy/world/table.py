@@ -133,6 +133,13 @@ class Table:
         view.flags.writeable = False
         return view
 
+    def views(self, names: Mapping[int, str]) -> dict[str, Any]:
+        """All columns, the system ids read-only, and beside them names by system id."""
+        columns = {name: self.column(name) for name in self._arrays}
+        sids = columns["sids"] = self.frozen("sids")
+        listed = [names.get(sid) for sid in sids.tolist()] if names else None
+        return {**columns, "names": listed}
+
     def raw(self, name: str) -> NDArray[Any]:
         """The array under a column, addressed by the rows that `find` returns."""
         return self._arrays[name]

@@ -9,22 +9,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colladaphy.world import attaching, creating, rotations, uniting, values
-from colladaphy.world.attaching import FREE, Frame, JointOptions
+from colladaphy.world import joints as joining
 from colladaphy.world.attributes import Column, Setting
-from colladaphy.world.body import Body
-from colladaphy.world.columns import (
-    BODY_FIELDS,
-    JOINT_FIELDS,
-    MEMBER_FIELDS,
-    BodyColumns,
-    JointColumns,
-    MemberColumns,
-)
+from colladaphy.world.body import Body, sid_of
+from colladaphy.world.columns import BodyColumns, JointColumns, MemberColumns
 from colladaphy.world.creating import BodyOptions
 from colladaphy.world.handles import Handles
 from colladaphy.world.joints import Joint, Joints
 from colladaphy.world.kinds import Kind
-from colladaphy.world.materials import Material, MaterialPair, MaterialValues, PairOverride
+from colladaphy.world.materials import (
+    AnyMaterial,
+    Material,
+    MaterialPair,
+    MaterialValues,
+    PairOverride,
+)
 from colladaphy.world.meshes import Mesh, MeshSource
 from colladaphy.world.rules import ARGUMENT, BODY_GONE, UNION_MEMBERS, refuse
 from colladaphy.world.storage import EngineState, Storage
@@ -49,14 +48,9 @@ class World:
     """
 
     def __init__(
-        self,
-        gravity: ArrayLike = (0.0, 0.0, 0.0),
-        *,
-        unit: tuple[str, float] = ("meter", 1.0),
-        up_axis: str = "Z_UP",
-        time_step: float | None = None,
-        name: str | None = None,
-    ) -> None:
+        self, gravity: ArrayLike = (0.0, 0.0, 0.0), *, unit: tuple[str, float] = ("meter", 1.0),
+        up_axis: str = "Z_UP", time_step: float | None = None, name: str | None = None,
+    ) -> None:  # fmt: skip
         if not isinstance(unit, (tuple, list)) or len(unit) != 2:
             raise refuse(ARGUMENT, f"The unit is {unit!r}, not a name and a size in metres.")
         self.gravity = gravity
@@ -85,7 +79,7 @@ class World:
     unit_name = Setting(values.text, "The name of the unit of length.")
     unit_meter = Setting(values.positive, "The unit of length in metres.")
     up_axis = Setting(values.text, "X_UP, Y_UP or Z_UP.")
-    time_step = Setting(values.optional(values.positive), "The step that the scene asks for.")
+    time_step = Setting(values.optional(values.number), "The step that the scene asks for.")
     time = Setting(values.finite, "The clock, in seconds.")
     step_count = Setting(values.whole, "How many steps engines have done.")
     engine_state = Setting(
@@ -138,57 +132,35 @@ class World:
 
     def destroy(self, body: Body) -> None:
         """Remove a top-level body, its members and the joints at it."""
-        sid = self._sid(body)
+        sid = sid_of(self._storage, body)
         if self.parent_of(sid) is not None:
             raise refuse(UNION_MEMBERS, f"{body!r} is a member of a union; destroy that.")
         for joint in tuple(self.joints_of.get(sid, ())):
             self._storage.destroy_joint(joint)
         self._storage.destroy(sid)
 
-    def _sid(self, body: Body | None) -> int:
-        """The system id of a body that is alive in this World."""
-        if not isinstance(body, Body):
-            raise refuse(ARGUMENT, f"{body!r} is not a body.")
-        if body._storage is not self._storage:
-            raise refuse(BODY_GONE, f"{body!r} belongs to another World.")
-        self.locate(body.sid)
-        return body.sid
-
     # --- creators
 
     def create_sphere(
-        self,
-        uid: int,
-        position: ArrayLike,
-        radius: float,
-        material: Material | str | int,
+        self, uid: int, position: ArrayLike, radius: float, material: AnyMaterial,
         **options: Unpack[BodyOptions],
-    ) -> Body:
+    ) -> Body:  # fmt: skip
         """A sphere."""
         sizes = (values.positive("radius", radius), 0.0, 0.0, 0.0)
         return self._create(Kind.SPHERE, uid, position, sizes, material, **options)
 
     def create_box(
-        self,
-        uid: int,
-        position: ArrayLike,
-        lengths: ArrayLike,
-        material: Material | str | int,
+        self, uid: int, position: ArrayLike, lengths: ArrayLike, material: AnyMaterial,
         **options: Unpack[BodyOptions],
-    ) -> Body:
+    ) -> Body:  # fmt: skip
         """A box of full side lengths (3,)."""
         x, y, z = values.positives("side length", lengths, 3)
         return self._create(Kind.BOX, uid, position, (x, y, z, 0.0), material, **options)
 
     def create_capsule(
-        self,
-        uid: int,
-        position: ArrayLike,
-        radius: ArrayLike,
-        length: float,
-        material: Material | str | int,
-        **options: Unpack[BodyOptions],
-    ) -> Body:
+        self, uid: int, position: ArrayLike, radius: ArrayLike, length: float,
+        material: AnyMaterial, **options: Unpack[BodyOptions],
+    ) -> Body:  # fmt: skip
         """A capsule along x; `length` excludes the caps.
 
         `radius` is a number, or the semi-axes x (of the caps), y and z.
@@ -198,41 +170,26 @@ class World:
         return self._create(Kind.CAPSULE, uid, position, sizes, material, **options)
 
     def create_cylinder(
-        self,
-        uid: int,
-        position: ArrayLike,
-        radius: ArrayLike,
-        length: float,
-        material: Material | str | int,
-        **options: Unpack[BodyOptions],
-    ) -> Body:
+        self, uid: int, position: ArrayLike, radius: ArrayLike, length: float,
+        material: AnyMaterial, **options: Unpack[BodyOptions],
+    ) -> Body:  # fmt: skip
         """A cylinder along x. `radius` is a number, or the semi-axes y and z."""
         y, z = values.positives("radius", radius, 2)
         sizes = (0.0, y, z, values.positive("length", length))
         return self._create(Kind.CYLINDER, uid, position, sizes, material, **options)
 
     def create_ellipsoid(
-        self,
-        uid: int,
-        position: ArrayLike,
-        radii: ArrayLike,
-        material: Material | str | int,
+        self, uid: int, position: ArrayLike, radii: ArrayLike, material: AnyMaterial,
         **options: Unpack[BodyOptions],
-    ) -> Body:
+    ) -> Body:  # fmt: skip
         """An ellipsoid of semi-axes (3,)."""
         x, y, z = values.positives("radius", radii, 3)
         return self._create(Kind.ELLIPSOID, uid, position, (x, y, z, 0.0), material, **options)
 
     def create_plane(
-        self,
-        uid: int,
-        normal: ArrayLike,
-        displacement: float | None,
-        material: Material | str | int,
-        *,
-        position: ArrayLike | None = None,
-        **options: Unpack[BodyOptions],
-    ) -> Body:
+        self, uid: int, normal: ArrayLike, displacement: float | None, material: AnyMaterial, *,
+        position: ArrayLike | None = None, **options: Unpack[BodyOptions],
+    ) -> Body:  # fmt: skip
         """A half space, solid where normal·x < displacement; fixed and infinite.
 
         The normal points out of the solid. Instead of the displacement (None), a point of the
@@ -244,16 +201,9 @@ class World:
         return self._create(Kind.PLANE, uid, anchor, sizes, material, **options)
 
     def create_mesh(
-        self,
-        uid: int,
-        position: ArrayLike,
-        vertices: ArrayLike | Mesh,
-        faces: ArrayLike | None,
-        material: Material | str | int,
-        *,
-        convex: bool = False,
-        **options: Unpack[BodyOptions],
-    ) -> Body:
+        self, uid: int, position: ArrayLike, vertices: ArrayLike | Mesh, faces: ArrayLike | None,
+        material: AnyMaterial, *, convex: bool = False, **options: Unpack[BodyOptions],
+    ) -> Body:  # fmt: skip
         """A body enclosed by a closed surface of triangles, its centre of mass at `position`.
 
         `vertices` (n, 3) and `faces` (m, 3), see `Mesh`; or a mesh of this World (faces None),
@@ -281,7 +231,7 @@ class World:
         the union: they are stored as they are. Joints at members go over to the union.
         """
         try:
-            sids = [self._sid(body) for body in members]
+            sids = [sid_of(self._storage, body) for body in members]
         except TypeError as error:
             raise refuse(ARGUMENT, f"{members!r} are no bodies.") from error
         return Body(self._storage, uniting.create_union(self._storage, uid, sids, **options))
@@ -300,12 +250,7 @@ class World:
     # --- meshes and materials
 
     def add_mesh(
-        self,
-        vertices: ArrayLike,
-        faces: ArrayLike,
-        *,
-        convex: bool = False,
-        id: int | None = None,
+        self, vertices: ArrayLike, faces: ArrayLike, *, convex: bool = False, id: int | None = None
     ) -> Mesh:
         """Add a mesh for any number of bodies to share."""
         return self.add_meshes([(vertices, faces, convex)], None if id is None else [id])[0]
@@ -323,19 +268,15 @@ class World:
         """Add a material (thesis 4.4). Names and ids are unique; WorldError on bad values."""
         return self.materials.create(name, id=id, **numbers)
 
-    def pair(self, first: Material | str | int, second: Material | str | int) -> MaterialPair:
+    def pair(self, first: AnyMaterial, second: AnyMaterial) -> MaterialPair:
         """What holds where two materials meet: pe's rules and what was set by hand."""
         materials = self.materials
         return materials.pair(materials.resolve(first), materials.resolve(second))
 
     def set_pair(
-        self,
-        first: Material | str | int,
-        second: Material | str | int,
-        restitution: float | None = None,
-        static_friction: float | None = None,
-        dynamic_friction: float | None = None,
-    ) -> None:
+        self, first: AnyMaterial, second: AnyMaterial, restitution: float | None = None,
+        static_friction: float | None = None, dynamic_friction: float | None = None,
+    ) -> None:  # fmt: skip
         """Set restitution and frictions of a pair; None leaves them to pe's rules."""
         one, two = self.materials.resolve(first), self.materials.resolve(second)
         self.materials.override(one, two, restitution, static_friction, dynamic_friction)
@@ -352,98 +293,11 @@ class World:
         """The joints in the order of their system ids."""
         return Joints(self._storage)
 
-    def attach_fixed_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None = None,
-        anchor2: ArrayLike | None = None,
-        **options: Unpack[JointOptions],
-    ) -> Joint:
-        """Hold two bodies as they lie to each other.
-
-        Anchors are points relative to each body. By default the joint is at the centre of body 2;
-        one anchor determines the other. `options` are those of `attach_joint`.
-        """
-        return self._along(body1, body2, anchor1, anchor2, None, options)
-
-    def attach_hinge_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None = None,
-        anchor2: ArrayLike | None = None,
-        *,
-        axis: ArrayLike,
-        limits: tuple[float, float] = (-np.inf, np.inf),
-        **options: Unpack[JointOptions],
-    ) -> Joint:
-        """Let body 2 turn about `axis` (3,), given in the frame of body 1, within `limits`."""
-        low, high = attaching.one_axis(limits)
-        given: JointOptions = {"angular_min": low, "angular_max": high, **options}
-        return self._along(body1, body2, anchor1, anchor2, axis, given)
-
-    def attach_slider_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None = None,
-        anchor2: ArrayLike | None = None,
-        *,
-        axis: ArrayLike,
-        limits: tuple[float, float] = (-np.inf, np.inf),
-        **options: Unpack[JointOptions],
-    ) -> Joint:
-        """Let body 2 slide along `axis` (3,), given in the frame of body 1, within `limits`."""
-        low, high = attaching.one_axis(limits)
-        given: JointOptions = {"linear_min": low, "linear_max": high, **options}
-        return self._along(body1, body2, anchor1, anchor2, axis, given)
-
-    def attach_ball_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None = None,
-        anchor2: ArrayLike | None = None,
-        **options: Unpack[JointOptions],
-    ) -> Joint:
-        """Let body 2 turn about a point in any direction."""
-        low = tuple(-value for value in FREE)
-        given: JointOptions = {"angular_min": low, "angular_max": FREE, **options}
-        return self._along(body1, body2, anchor1, anchor2, None, given)
-
-    def attach_joint(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        *,
-        frame1: Frame = attaching.AT_CENTRE,
-        frame2: Frame = attaching.AT_CENTRE,
-        **options: Unpack[JointOptions],
-    ) -> Joint:
-        """Bind two bodies with six degrees of freedom, each locked, limited or free.
-
-        Everything is stored as it is given; see `colladaphy.world.attaching` for what it means.
-        """
-        sids = self._sid_or_world(body1), self._sid_or_world(body2)
-        made = attaching.attach(self._storage, *sids, frame1=frame1, frame2=frame2, **options)
-        return Joint(self._storage, made)
-
-    def _along(
-        self,
-        body1: Body | None,
-        body2: Body | None,
-        anchor1: ArrayLike | None,
-        anchor2: ArrayLike | None,
-        axis: ArrayLike | None,
-        options: JointOptions,
-    ) -> Joint:
-        sids = self._sid_or_world(body1), self._sid_or_world(body2)
-        made = attaching.attach_along(self._storage, *sids, anchor1, anchor2, axis, **options)
-        return Joint(self._storage, made)
-
-    def _sid_or_world(self, body: Body | None) -> int:
-        return 0 if body is None else self._sid(body)
+    attach_fixed_joint = joining.attach_fixed_joint
+    attach_hinge_joint = joining.attach_hinge_joint
+    attach_slider_joint = joining.attach_slider_joint
+    attach_ball_joint = joining.attach_ball_joint
+    attach_joint = joining.attach_joint
 
     def extend_joints(self, columns: JointColumns) -> NDArray[np.int64]:
         """Create many joints at once, stored as they are given; returns their system ids (n,).
@@ -502,38 +356,24 @@ class World:
     def columns(self) -> BodyColumns:
         """All columns of the top-level bodies at once, unions among them; `extend` takes these."""
         self._storage.dimensions_of(self.top)
-        return BodyColumns(**_views(self.top, BODY_FIELDS, self.names))
+        return BodyColumns(**self.top.views(self.names))
 
     @property
     def member_columns(self) -> MemberColumns:
         """The members of all unions by column; writable views, poses relative to the union."""
         self._storage.dimensions_of(self.inner)
-        return MemberColumns(**_views(self.inner, MEMBER_FIELDS, self.names))
+        return MemberColumns(**self.inner.views(self.names))
 
     @property
     def joint_columns(self) -> JointColumns:
         """The joints by column; writable views."""
-        return JointColumns(**_views(self.joint_table, JOINT_FIELDS, self.joint_names))
+        return JointColumns(**self.joint_table.views(self.joint_names))
 
     # --- system ids
 
-    @property
-    def next_body_sid(self) -> int:
-        """The system id that the next body gets: a counter, so that none is used twice."""
-        return self._storage.next_body_sid
-
-    @next_body_sid.setter
-    def next_body_sid(self, value: int) -> None:
-        self._storage.next_body_sid = values.whole("next system id", value)
-
-    @property
-    def next_joint_sid(self) -> int:
-        """The system id that the next joint gets."""
-        return self._storage.next_joint_sid
-
-    @next_joint_sid.setter
-    def next_joint_sid(self, value: int) -> None:
-        self._storage.next_joint_sid = values.whole("next system id", value)
+    # Counters, so that no id is used twice.
+    next_body_sid = Setting(values.whole, "The system id that the next body gets.", of="_storage")
+    next_joint_sid = Setting(values.whole, "The system id that the next joint gets.", of="_storage")
 
     def locate(self, sid: int) -> tuple[Table, int]:
         """The table and the row that hold a body; WorldError if there is none."""
@@ -554,11 +394,3 @@ class World:
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""
         return f"<World{name} of {len(self.top)} bodies, {len(self.joints)} joints>"
-
-
-def _views(table: Table, fields: Any, names: dict[int, str]) -> dict[str, Any]:
-    """All columns of a table, as the dataclass for them takes them."""
-    sids = table.frozen("sids")
-    columns = {name: table.column(name) for name in fields}
-    listed = [names.get(sid) for sid in sids.tolist()] if names else None
-    return {"sids": sids, **columns, "names": listed}
