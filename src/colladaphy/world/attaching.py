@@ -175,8 +175,10 @@ def attach_along(
     )
 
 
-def one_axis(limits: tuple[float, float]) -> tuple[Limits, Limits]:
-    """Lower and upper limits that leave the third axis, z, a range."""
+def one_axis(axis: ArrayLike, limits: tuple[float, float]) -> tuple[Limits, Limits]:
+    """Lower and upper limits that leave the third axis, z, a range; the axis is needed."""
+    if axis is None:
+        raise refuse(JOINT_VALUE, "The joint needs an axis.")
     try:
         low, high = limits
     except (TypeError, ValueError) as error:

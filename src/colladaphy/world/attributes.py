@@ -45,7 +45,7 @@ class Column(Generic[Scalar]):
         column = holder.top.column(self._name)
         numbers = values.fitting(self._name, value, self._dtype)
         try:
-            column[...] = numbers
+            column[...] = np.broadcast_to(numbers, column.shape)
         except ValueError as error:
             shapes = f"{numbers.shape}, not {column.shape}"
             raise refuse(COLUMNS, f"The column {self._name} has the shape {shapes}.") from error

@@ -41,7 +41,10 @@ class Handles(Sequence[Handle]):
         sids = self._table.column("sids")
         if isinstance(index, slice):
             return [self._make(self._storage, sid) for sid in sids[index].tolist()]
-        return self._make(self._storage, int(sids[values.integer("place", index)]))
+        place = values.integer("place", index)
+        if not -len(sids) <= place < len(sids):
+            raise IndexError(f"There are {len(sids)} {self._noun}.")
+        return self._make(self._storage, int(sids[place]))
 
     def __iter__(self) -> Iterator[Handle]:
         for sid in self._table.column("sids").tolist():

@@ -226,7 +226,7 @@ def attach_hinge_joint(
     **options: Unpack[JointOptions],
 ) -> Joint:  # fmt: skip
     """Let body 2 turn about `axis` (3,), given in the frame of body 1, within `limits`."""
-    low, high = one_axis(limits)
+    low, high = one_axis(axis, limits)
     given: JointOptions = {"angular_min": low, "angular_max": high, **options}
     return _along(self._storage, body1, body2, anchor1, anchor2, axis, given)
 
@@ -238,7 +238,7 @@ def attach_slider_joint(
     **options: Unpack[JointOptions],
 ) -> Joint:  # fmt: skip
     """Let body 2 slide along `axis` (3,), given in the frame of body 1, within `limits`."""
-    low, high = one_axis(limits)
+    low, high = one_axis(axis, limits)
     given: JointOptions = {"linear_min": low, "linear_max": high, **options}
     return _along(self._storage, body1, body2, anchor1, anchor2, axis, given)
 

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from colladaphy.world import values as checks
 from colladaphy.world.rules import (
+    COLUMNS,
     MATERIAL_NAME,
     MATERIAL_UNKNOWN,
     MATERIAL_VALUE,
@@ -224,7 +225,9 @@ class Materials:
 
     def rows(self, ids: ArrayLike) -> NDArray[np.int64]:
         """Where materials of given ids (n,) are in the order of `ids`; WorldError if nowhere."""
-        wanted = np.asarray(ids, dtype=np.int64)
+        wanted = checks.fitting("ids", ids, np.int64)
+        if wanted.ndim != 1:
+            raise refuse(COLUMNS, "The ids of materials are one number each.")
         rows = self._table.find_all(wanted)
         missing = np.flatnonzero(rows < 0)
         if len(missing):

@@ -155,10 +155,10 @@ def inertia(value: ArrayLike) -> Floats:
 
 
 def whole(what: str, value: int) -> int:
-    """A whole number, zero or greater."""
+    """A whole number, zero or greater, of 64 bits."""
     result = integer(what, value)
-    if result < 0:
-        raise refuse(ARGUMENT, f"The {what} is {value!r}; it is never negative.")
+    if not 0 <= result < 2**63:
+        raise refuse(ARGUMENT, f"The {what} is negative, or out of the range of numbers.")
     return result
 
 
@@ -245,6 +245,8 @@ def names(sids: NDArray[np.int64], given: Sequence[str | None] | None) -> dict[i
     """Names by system id, of the rows that have one."""
     if given is None:
         return {}
+    if isinstance(given, str) or not isinstance(given, Sequence | np.ndarray):
+        raise refuse(COLUMNS, f"The names are {given!r}, not a list.")
     if len(given) != len(sids):
         raise refuse(COLUMNS, f"There are {len(given)} names for {len(sids)} rows.")
     pairs = zip(sids.tolist(), given, strict=True)
