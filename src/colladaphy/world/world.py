@@ -325,10 +325,12 @@ class World:
     torques = Column(np.float64, "Torques (n, 3) that act during the next step.")
     masses = Column(np.float64, "Masses (n,), 0 for infinite bodies.")
     inertias = Column(np.float64, "About the centre of mass, in the body frame (n, 3, 3).")
-    fixed = Column(np.bool_, "True for bodies that nothing moves (n,).")
-    sleeping = Column(np.bool_, "True for bodies that an engine has put to sleep (n,).")
+    fixed: Column[np.bool_] = Column(np.bool_, "True for bodies that nothing moves (n,).")
+    sleeping: Column[np.bool_] = Column(
+        np.bool_, "True for bodies that an engine has put to sleep (n,)."
+    )
     material_ids = Column(np.int64, "Ids of materials (n,), -1 for a union.")
-    hollow = Column(np.bool_, "True where the mass is on the surface (n,).")
+    hollow: Column[np.bool_] = Column(np.bool_, "True where the mass is on the surface (n,).")
 
     @property
     def sids(self) -> NDArray[np.int64]:
