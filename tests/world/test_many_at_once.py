@@ -25,6 +25,7 @@ from colladaphy.world import (
 )
 from colladaphy.world.columns import JOINT_FIELDS, MEMBER_FIELDS
 from colladaphy.world.materials import VALUES
+from colladaphy.world.shapes import NEEDED
 from colladaphy.world.unions import sums
 
 
@@ -453,21 +454,42 @@ def test_hollow_meshes_have_the_centre_of_their_surface() -> None:
 # --- hollow primitives, which are grouped by equal dimensions
 
 
-def test_hollow_bodies_at_once_are_as_one_by_one() -> None:
+@pytest.mark.parametrize("kind", [kind for kind in Kind if kind in NEEDED])
+def test_hollow_bodies_at_once_are_as_one_by_one(kind: Kind) -> None:
     many, single = World(), World()
-    rng = np.random.default_rng(2)
-    kinds = np.repeat([Kind.SPHERE, Kind.BOX, Kind.CAPSULE, Kind.CYLINDER, Kind.ELLIPSOID], 6)
-    few = rng.uniform(0.5, 2, (2, 4))
-    dimensions = few[np.arange(len(kinds)) % 2]
-    used = {Kind.SPHERE: [0], Kind.BOX: [0, 1, 2], Kind.CAPSULE: [0, 1, 2, 3],
-            Kind.CYLINDER: [1, 2, 3], Kind.ELLIPSOID: [0, 1, 2]}  # fmt: skip
-    for row, kind in enumerate(kinds.tolist()):
-        dimensions[row, [axis for axis in range(4) if axis not in used[Kind(kind)]]] = 0
-    columns = {"kinds": kinds, "dimensions": dimensions, "hollow": np.ones(len(kinds), dtype=bool)}
+    count = 70
+    dimensions = np.random.default_rng(2).uniform(0.5, 2, (count, 4))
+    dimensions[::2, 2] = dimensions[::2, 1]  # round sections
+    dimensions[-5:] = dimensions[:5]
+    dimensions[:, [axis for axis in range(4) if axis not in NEEDED[kind]]] = 0
+    columns = {
+        "kinds": np.full(count, kind),
+        "dimensions": dimensions,
+        "hollow": np.arange(count) % 9 > 0,
+    }
     many.extend(BodyColumns(**columns))
-    for row in range(len(kinds)):
+    for row in range(count):
         single.extend(BodyColumns(**{name: column[row][None] for name, column in columns.items()}))
     assert compare(many, single) == []
+
+
+def test_planes_at_once_are_as_one_by_one() -> None:
+    many, single = World(), World()
+    normals = np.random.default_rng(4).normal(size=(40, 3))
+    normals[:3] = (0, 0, -1), (0, 1e-9, -1), (0, 0, 1)
+    normals /= np.linalg.norm(normals, axis=1)[:, None]
+    displacements = np.linspace(-3, 3, 40)
+    for normal, displacement in zip(normals, displacements, strict=True):
+        single.create_plane(0, normal, displacement, "iron")
+    dimensions = np.column_stack([normals, displacements])
+    many.extend(BodyColumns(kinds=np.full(40, Kind.PLANE), dimensions=dimensions))
+    assert compare(many, single) == []
+    for world in (many, single):
+        world.positions += (1, 2, 3)
+    moved = [plane.dimensions.tolist() for plane in single.bodies]
+    assert many.dimensions.tolist() == moved
+    expected = displacements + normals @ (1, 2, 3)
+    assert many.dimensions[:, 3] == pytest.approx(expected, abs=1e-12)
 
 
 def test_fields_and_columns_name_the_same() -> None:

@@ -103,9 +103,21 @@ def test_everything_is_vectorised() -> None:
         (rotations.from_axis_angle, (v, x)),
         (rotations.fixed_angles, (x, x + 1, x + 2)),
         (rotations.rotate_tensor, (p, rng.normal(size=(5, 7, 3, 3)))),
+        (rotations.between, (v, rng.normal(size=(5, 7, 3)))),
+        (rotations.between, (v, -v)),
     ):
         together = function(*arguments)
         single = function(*(argument[3, 4] for argument in arguments))
         assert np.allclose(together[3, 4], single, atol=1e-14)
     back = rotations.from_matrix(rotations.to_matrix(p))
     assert back.shape == p.shape
+
+
+@given(st.tuples(*[st.floats(-9, 9)] * 4), st.tuples(*[st.floats(-100, 100)] * 3))
+def test_a_single_turn_is_as_with_arrays(q: Any, angles: Any) -> None:
+    if max(map(abs, q)) < 1e-3:
+        return
+    quick = rotations.turned(q, *angles)
+    plain = rotations.normalize(rotations.multiply(rotations.fixed_angles(*angles), q))
+    # Sines may differ in their last bit.
+    assert np.allclose(quick, plain, rtol=0, atol=1e-15)

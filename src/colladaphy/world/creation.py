@@ -206,8 +206,8 @@ def _place(values: dict[str, Array]) -> None:
     if "orientations" not in values:
         values["orientations"] = np.zeros((len(values["kinds"]), 4))
         values["orientations"][:, 0] = 1.0
-        for row, normal in zip(planes.tolist(), normals, strict=True):
-            values["orientations"][row] = rotations.between((0.0, 0.0, 1.0), normal)
+        if len(planes):
+            values["orientations"][planes] = rotations.between((0.0, 0.0, 1.0), normals)
 
 
 def _weigh(values: dict[str, Array], materials: Materials, meshes: Mapping[int, Mesh]) -> None:

@@ -183,24 +183,28 @@ def turned(
 
 
 def between(start: ArrayLike, end: ArrayLike) -> Floats:
-    """A rotation (4,) that turns the direction `start` (3,) onto `end` (3,).
+    """A rotation (..., 4) that turns the direction `start` (..., 3) onto `end` (..., 3).
 
     It is the shortest one, unless the two are opposite to within a few minutes of arc.
     """
-    ax, ay, az = _direction(start)
-    bx, by, bz = _direction(end)
-    cosine = ax * bx + ay * by + az * bz
-    if cosine < -0.999999:
-        # Half a turn about any axis across is exact; what is left is small.
-        across = np.zeros(3)
-        across[np.argmin(np.abs([ax, ay, az]))] = 1.0
-        half = normalize([0.0, *np.cross((ax, ay, az), across).tolist()])
-        return multiply(between((-ax, -ay, -az), end), half)
-    cross = (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
-    return normalize([1.0 + cosine, *cross])
+    one, two = np.broadcast_arrays(_directions(start), _directions(end))
+    opposite = _dot(one, two) < -0.999999
+    near = np.where(opposite, -one, one)
+    turn = normalize(np.concatenate([1.0 + _dot(near, two), np.cross(near, two)], axis=-1))
+    if not opposite.any():
+        return turn
+    # Half a turn about any axis across is exact; what is left is small.
+    across = np.cross(one, np.eye(3)[np.argmin(np.abs(one), axis=-1)])
+    half = normalize(np.concatenate([np.zeros_like(across[..., :1]), across], axis=-1))
+    return np.where(opposite, multiply(turn, half), turn)
 
 
-def _direction(vector: ArrayLike) -> tuple[float, float, float]:
-    x, y, z = (float(number) for number in _floats(vector))
-    length = math.hypot(x, y, z)
-    return x / length, y / length, z / length
+def _directions(vectors: ArrayLike) -> Floats:
+    v = _floats(vectors)
+    _, exponent = np.frexp(np.max(np.abs(v), axis=-1, keepdims=True))
+    v = np.ldexp(v, -exponent)
+    return np.asarray(v / np.sqrt(_dot(v, v)))
+
+
+def _dot(first: Floats, second: Floats) -> Floats:
+    return np.asarray(np.sum(first * second, axis=-1, keepdims=True))

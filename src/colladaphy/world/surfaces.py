@@ -20,6 +20,8 @@ Floats = NDArray[np.float64]
 # Enough nodes for twelve digits up to an aspect ratio of about 10; smooth integrands converge
 # spectrally, so that more only matters for needles and discs.
 _NODES = 96
+# How many surfaces are integrated at once: of elliptic ones, as many as a cache holds.
+_AT_ONCE = 32
 
 
 def hollow_moments(kind: Kind, dimensions: Floats) -> Floats:
@@ -35,28 +37,15 @@ def hollow_moments(kind: Kind, dimensions: Floats) -> Floats:
         means = _boxes(sizes[:, :3])
     else:
         different, where = np.unique(sizes, axis=0, return_inverse=True)
-        means = np.array([_integrated(kind, *size) for size in different.tolist()])
+        means = np.empty((len(different), 3))
+        section = different[:, 1] == different[:, 2]
+        for rows, angles in ((section, _ROUND), (~section, _quarter())):
+            places = np.flatnonzero(rows)
+            for start in range(0, len(places), _AT_ONCE):
+                part = places[start : start + _AT_ONCE]
+                means[part] = _integrated(kind, different[part], angles)
         means = means[where.reshape(-1)]
     return np.asarray(means * scale * scale)
-
-
-def _integrated(kind: Kind, x: float, y: float, z: float, length: float) -> Floats:
-    match kind:
-        case Kind.ELLIPSOID:
-            return _weigh([_ellipsoid(x, y, z)])
-        case Kind.CYLINDER:
-            return _weigh([_wall(y, z, length), _discs(y, z, length)])
-        case _:
-            return _weigh([_wall(y, z, length), _caps(x, y, z, length)])
-
-
-Part = tuple[float, Floats]
-"""An area and the integrals of x², y², z² over it."""
-
-
-def _weigh(parts: list[Part]) -> Floats:
-    area = sum(part[0] for part in parts)
-    return np.asarray(sum(part[1] for part in parts) / area)
 
 
 def _boxes(sides: Floats) -> Floats:
@@ -68,57 +57,71 @@ def _boxes(sides: Floats) -> Floats:
     return np.asarray((2.0 * faces * squares / 4.0 + (area - 2.0 * faces) * squares / 12.0) / area)
 
 
+Angles = tuple[Floats, Floats, Floats]
+"""Squares of the cosines and sines of angles about x, and their weights, 2π together."""
+
+# Nothing on a round section depends on the angle but these squares, and their mean is a half.
+_ROUND: Angles = (np.array([0.5]), np.array([0.5]), np.array([2.0 * np.pi]))
+
+
 @lru_cache(maxsize=1)
-def _quadrature() -> tuple[Floats, Floats, Floats]:
+def _quarter() -> Angles:
+    """One quarter of a circle, which stands for all four by symmetry."""
+    angles = np.arange(_NODES // 2 + 1) * (np.pi / _NODES)
+    weights = np.full(len(angles), 4.0 * np.pi / _NODES)
+    weights[[0, -1]] *= 0.5
+    return np.cos(angles) ** 2, np.sin(angles) ** 2, weights
+
+
+@lru_cache(maxsize=1)
+def _half() -> tuple[Floats, Floats]:
+    """Nodes and weights from 0 to 1."""
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    angles = np.arange(2 * _NODES, dtype=np.float64) * (np.pi / _NODES)
-    return np.asarray(nodes), np.asarray(weights), angles
+    return np.asarray(0.5 * (nodes + 1.0)), np.asarray(0.5 * weights)
 
 
-def _ellipsoid(x: float, y: float, z: float) -> Part:
-    u, weights, angle = _quadrature()
-    across = np.sqrt(1.0 - u * u)[:, None]
-    px = np.broadcast_to(u[:, None], (len(u), len(angle)))
-    py, pz = across * np.cos(angle), across * np.sin(angle)
-    # The area element of the sphere stretched by (x, y, z).
-    stretch = np.sqrt((y * z * px) ** 2 + (x * z * py) ** 2 + (x * y * pz) ** 2)
-    element = stretch * weights[:, None] * (np.pi / _NODES)
-    squares = [float(np.sum(element * (a * p) ** 2)) for a, p in ((x, px), (y, py), (z, pz))]
-    return float(np.sum(element)), np.array(squares)
+def _integrated(kind: Kind, sizes: Floats, angles: Angles) -> Floats:
+    x, y, z, length = (sizes[:, axis, None] for axis in range(4))
+    if kind is Kind.ELLIPSOID:
+        parts = [_caps(x, y, z, length, angles)]
+    elif kind is Kind.CYLINDER:
+        parts = [_wall(y, z, length, angles), _discs(y, z, length)]
+    else:
+        parts = [_wall(y, z, length, angles), _caps(x, y, z, length, angles)]
+    integrals = sum(parts[1:], parts[0])
+    return np.asarray(integrals[:, 1:] / integrals[:, :1])
 
 
-def _wall(y: float, z: float, length: float) -> Part:
-    _, _, angle = _quadrature()
-    cosine, sine = np.cos(angle), np.sin(angle)
-    element = np.sqrt((y * sine) ** 2 + (z * cosine) ** 2) * (np.pi / _NODES) * length
-    area = float(np.sum(element))
-    return area, np.array(
-        [
-            area * length * length / 12.0,
-            float(np.sum(element * (y * cosine) ** 2)),
-            float(np.sum(element * (z * sine) ** 2)),
-        ]
+# Each of these gives an area and the integrals of x², y², z² over it, (n, 4).
+
+
+def _wall(y: Floats, z: Floats, length: Floats, angles: Angles) -> Floats:
+    cosines, sines, weights = angles
+    element = np.sqrt(y * y * sines + z * z * cosines) * weights * length
+    area = element.sum(axis=1, keepdims=True)
+    across = [(element * squares).sum(axis=1, keepdims=True) for squares in (cosines, sines)]
+    return np.concatenate(
+        [area, area * length * length / 12.0, y * y * across[0], z * z * across[1]], axis=1
     )
 
 
-def _discs(y: float, z: float, length: float) -> Part:
+def _discs(y: Floats, z: Floats, length: Floats) -> Floats:
     area = 2.0 * np.pi * y * z
-    return area, np.array([length * length / 4.0, y * y / 4.0, z * z / 4.0]) * area
+    moments = [area * length * length / 4.0, area * y * y / 4.0, area * z * z / 4.0]
+    return np.concatenate([area, *moments], axis=1)
 
 
-def _caps(x: float, y: float, z: float, length: float) -> Part:
-    u, weights, angle = _quadrature()
-    u, weights = 0.5 * (u + 1.0), 0.5 * weights  # one half, by symmetry
-    across = np.sqrt(1.0 - u * u)[:, None]
-    px = np.broadcast_to(u[:, None], (len(u), len(angle)))
-    py, pz = across * np.cos(angle), across * np.sin(angle)
-    stretch = np.sqrt((y * z * px) ** 2 + (x * z * py) ** 2 + (x * y * pz) ** 2)
-    element = 2.0 * stretch * weights[:, None] * (np.pi / _NODES)
-    along = (0.5 * length + x * px) ** 2
-    return float(np.sum(element)), np.array(
-        [
-            float(np.sum(element * along)),
-            float(np.sum(element * (y * py) ** 2)),
-            float(np.sum(element * (z * pz) ** 2)),
-        ]
-    )
+def _caps(x: Floats, y: Floats, z: Floats, length: Floats, angles: Angles) -> Floats:
+    """Both halves of an ellipsoid, `length` apart; their integrals are equal by symmetry."""
+    nodes, heights = _half()
+    cosines, sines, weights = angles
+    u = np.repeat(nodes, len(weights))
+    across = 1.0 - u * u
+    squares = u * u, across * np.tile(cosines, _NODES), across * np.tile(sines, _NODES)
+    # The area element of the sphere stretched by (x, y, z).
+    stretch = (y * z) ** 2 * squares[0] + (x * z) ** 2 * squares[1] + (x * y) ** 2 * squares[2]
+    element = np.sqrt(stretch) * (2.0 * np.repeat(heights, len(weights)) * np.tile(weights, _NODES))
+    along = (0.5 * length + x * u) ** 2
+    moments = [along, y * y * squares[1], z * z * squares[2]]
+    integrals = [element, *(element * moment for moment in moments)]
+    return np.stack([integral.sum(axis=1) for integral in integrals], axis=1)
