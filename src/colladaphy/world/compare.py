@@ -103,9 +103,10 @@ def _meshes(found: list[str], first: World, second: World) -> None:
         sids = one.column("sids")
         if not np.array_equal(sids, two.column("sids")):
             continue
-        ids = zip(one.column("mesh_ids").tolist(), two.column("mesh_ids").tolist(), strict=True)
-        equal: dict[tuple[int, int], bool] = {(-1, -1): True}
-        for sid, pair in zip(sids.tolist(), ids, strict=True):
+        ids = np.stack([one.column("mesh_ids"), two.column("mesh_ids")], axis=1)
+        rows = np.any(ids != -1, axis=1)
+        equal: dict[tuple[int, ...], bool] = {}
+        for sid, pair in zip(sids[rows].tolist(), map(tuple, ids[rows].tolist()), strict=True):
             if pair not in equal:
                 a, b = first.meshes.get(pair[0]), second.meshes.get(pair[1])
                 equal[pair] = a is not None and b is not None and a.same_as(b)
@@ -115,17 +116,21 @@ def _meshes(found: list[str], first: World, second: World) -> None:
 
 def _materials(found: list[str], first: World, second: World, unused: bool) -> None:
     used = _used(first) | _used(second)
-    one, two = first.materials.by_id(), second.materials.by_id()
-    for id in sorted(one.keys() | two.keys()):
-        if not (unused or id in used):
-            continue
-        a, b = one.get(id), two.get(id)
-        if a is None or b is None:
-            found.append(f"material {id}: {a} and {b}")
-            continue
-        _values(found, f"material {id}, name", a.name, b.name)
-        for key in VALUES:
-            _values(found, f"material {id}, {key}", getattr(a, key).hex(), getattr(b, key).hex())
+    chosen = [
+        [id for id in world.materials.ids.tolist() if unused or id in used]
+        for world in (first, second)
+    ]
+    names = [
+        {id: world.materials.names[id] for id in ids}
+        for world, ids in zip((first, second), chosen, strict=True)
+    ]
+    _mappings(found, "name of material", names[0], names[1])
+    common = np.array(sorted(names[0].keys() & names[1].keys()), dtype=np.int64)
+    values = [
+        {"sids": common, **{key: world.materials.values(key, common) for key in VALUES}}
+        for world in (first, second)
+    ]
+    _columns(found, "material", values[0], values[1])
     pairs = [
         {
             (pair.first, pair.second): (
