@@ -126,7 +126,7 @@ def test_bullets_radians_planes_and_heights() -> None:
     )
     tree = physics(
         shapes,
-        more=LIMITS.format("-1 1 0", "1 -1 200"),
+        more=LIMITS.format("-0.5 1 0", "1 -1 200"),
         instances=MOVING,
         asset=asset("Bullet ColladaConverter (BulletColladaConverter)"),
     )
@@ -135,13 +135,95 @@ def test_bullets_radians_planes_and_heights() -> None:
     assert words(root, "height") == ["3"]
     assert [float(v) for v in words(root, "angular_velocity")] == [0, np.degrees(3.5), 0]
     low, high = words(root, "swing_cone_and_twist/min"), words(root, "swing_cone_and_twist/max")
-    assert [float(v) for v in low] == [-np.degrees(1), -np.inf, 0]
-    assert [float(v) for v in high] == [np.degrees(1), np.inf, np.inf]
+    # Bullet measures minus the angle: its -0.5 to 1 is -1 to 0.5.
+    assert [float(v) for v in low] == [-np.degrees(1), -np.inf, -np.inf]
+    assert [float(v) for v in high] == [np.degrees(0.5), np.inf, 0]
     assert words(root, "linear/min") == ["0", "-INF", "0"]
     assert codes(findings) == {
         "convention-chosen", "convention-angle-unit", "convention-plane-sign",
         "convention-half-height", "convention-free-limits",
     }  # fmt: skip
+
+
+def test_bullets_centre_of_mass_is_the_nodes_origin() -> None:
+    moved = BOX.replace("</shape>", "<translate>5 0 0</translate></shape>")
+    bodies = "".join(
+        f'<rigid_body sid="b{i}"><technique_common><dynamic>true</dynamic><mass>1</mass>{content}'
+        "</technique_common></rigid_body>"
+        for i, content in (
+            (1, moved),
+            (2, BOX),
+            (3, f"<mass_frame><translate>1 1 1</translate></mass_frame>{moved}"),
+        )
+    )
+    root, findings = mended(physics(bodies=bodies, asset=asset("BulletColladaConverter")))
+    frames = [b.findtext(f".//{C}mass_frame/{C}translate") for b in root.iter(C + "rigid_body")]
+    assert frames == ["0 0 0", None, "1 1 1"]
+    assert codes(findings) == {"convention-chosen", "convention-mass-centre"}
+
+
+def test_a_joint_of_bullets_with_one_body_at_both_ends_is_to_the_world() -> None:
+    joint = (
+        '<rigid_constraint sid="j"><ref_attachment rigid_body="b1"><translate>1 0 0</translate>'
+        '</ref_attachment><attachment rigid_body="b1"><translate>1 0 0</translate></attachment>'
+        "<technique_common/></rigid_constraint>"
+    )
+    nodes = '<node id="n1"><translate>0 5 0</translate><rotate>0 0 1 90</rotate></node>'
+    for tool in ("BulletColladaConverter", "hand"):
+        root, findings = mended(physics(BOX, more=joint, nodes=nodes, asset=asset(tool)))
+        second = root.find(f".//{C}attachment")
+        if tool == "hand":
+            assert second.get("rigid_body") == "pm/b1"
+            continue
+        assert second.get("rigid_body") == ""
+        place = transform_of(second)
+        assert place[:3, 3] == pytest.approx([0, 6, 0])
+        assert place[:3, 0] == pytest.approx([0, 1, 0])
+        assert "convention-world-joint" in codes(findings)
+
+
+SAVED = (
+    '<node id="n1"><translate>1.23457 0 0.5</translate><rotate>0.267261 0.534522 0.801784 33.3333'
+    "</rotate></node>"
+)
+
+
+@pytest.mark.parametrize(
+    ("tool", "nodes", "version", "rewritten"),
+    [
+        ("Blender v:242 - Illusoft Collada Exporter", SAVED, "1.4.1", True),
+        ("Blender v:242 - Illusoft Collada Exporter", SAVED, "1.5.0", False),
+        ("hand", SAVED, "1.4.1", False),
+        ("Maya 7.0", SAVED.replace("<rotate>", '<rotate sid="rotateX">'), "1.4.1", False),
+        ("Maya 7.0", SAVED.replace("1.23457", "1.2345678"), "1.4.1", False),
+    ],
+)
+def test_what_bullet_saved_under_another_name_is_known_by_its_numbers(
+    tool: str, nodes: str, version: str, rewritten: bool
+) -> None:
+    moving = MOVING.replace("</technique_common>", "<velocity>0 0 0</velocity></technique_common>")
+    tree = physics(
+        BOX,
+        more=LIMITS.format("-10 0 0", "30 0 0"),
+        instances=moving,
+        nodes=nodes,
+        version=version,
+        asset=asset(tool),
+    )
+    root, findings = mended(tree)
+    spin = float(words(root, "angular_velocity")[1])
+    assert spin == pytest.approx(np.degrees(3.5) if rewritten else 3.5)
+    # The limits are still those of the other tool.
+    assert words(root, "swing_cone_and_twist/min")[0] == "-10"
+    if rewritten:
+        assert "bullet-rewritten" in " ".join(f.message for f in findings)
+
+
+def test_the_digits_of_what_is_converted_are_kept_in_mind() -> None:
+    moving = MOVING.replace("0 3.5 0", "0.1 0.2 0.333333")
+    root, _ = mended(physics(BOX, instances=moving, asset=asset("BulletColladaConverter")))
+    (note,) = root.iter("{urn:colladaphy:conform:1}convention")
+    assert note.get("digits") == "6"
 
 
 def test_bullet_leaves_the_shapes_of_what_it_only_edits() -> None:
@@ -179,6 +261,33 @@ def test_nxustreams_angular_velocity_and_restitution() -> None:
     assert float(words(root, "angular_velocity")[1]) == np.degrees(3.5)
     assert root.find(f".//{C}spring/{C}angular/{C}target_value") is None
     assert codes(findings) >= {"convention-angle-unit", "convention-restitution"}
+
+
+def test_nxustream_is_known_by_its_author_and_its_still_springs_cost_no_constraint() -> None:
+    spring = (
+        "</limits><spring><angular><stiffness>0</stiffness><target_value>0.5</target_value>"
+        "</angular><linear><stiffness>0</stiffness><target_value>INF</target_value></linear>"
+        "</spring>"
+    )
+    joint = LIMITS.format("0 0 0", "0 0 0").replace("</limits>", spring).replace("0 1 0", "0 0 0")
+    contributor = "<contributor><author>NxuStream2 converter - http://example</author>"
+    who = asset("PhysX Viewer").replace("<contributor>", contributor)
+    use = '<instance_rigid_constraint constraint="j"/>'
+    root, findings = mended(physics(BOX, more=joint, instances=MOVING + use, asset=who))
+    assert float(words(root, "angular_velocity")[1]) == np.degrees(3.5)
+    assert root.find(f".//{C}spring//{C}target_value") is None
+    assert root.find(f".//{C}rigid_constraint//{C}stiffness").text == "0"
+    assert codes(findings) == {
+        "convention-chosen", "convention-angle-unit", "convention-restitution",
+        "convention-inert-spring",
+    }  # fmt: skip
+
+
+def test_a_stiff_spring_keeps_its_target() -> None:
+    spring = "</limits><spring><linear><stiffness>2</stiffness><target_value>0.5</target_value>"
+    joint = LIMITS.format("0 0 0", "0 0 0").replace("</limits>", spring + "</linear></spring>")
+    root, _ = mended(physics(BOX, more=joint))
+    assert words(root, "target_value") == ["0.5"]
 
 
 def test_colladamayas_gravity_and_hollow_shapes() -> None:

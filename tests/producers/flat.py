@@ -78,6 +78,10 @@ class Producer:
     kinds: tuple[str, ...] = ("box", "sphere", "capsule", "mesh")
     radians_per_second: bool = False
     radians: bool = False
+    mirrored: bool = False
+    """Whether angles are measured the other way round."""
+    at_origin: bool = False
+    """Whether the centre of mass is the node's origin, wherever the shapes are."""
     unit: float = 1.0
     up_axis: str = "Z_UP"
     profile: str | None = None
@@ -156,6 +160,8 @@ PRODUCERS = {
         kinds=("box", "sphere", "cylinder", "capsule", "mesh"),
         radians_per_second=True,
         radians=True,
+        mirrored=True,
+        at_origin=True,
         joints=True,
         moving=True,
     ),
@@ -330,7 +336,7 @@ class _Writer:
             moves = ("False", "True")
         dynamic = tag("dynamic", moves[not link.fixed])
         mass = tag("mass", numbers([link.mass]))
-        frame = "" if link.centre is None else tag("mass_frame", transforms(link.centre))
+        frame = "" if not link.centre else tag("mass_frame", transforms(link.centre))
         inertia = "" if link.inertia is None else tag("inertia", numbers(link.inertia))
         shapes = "".join(
             self._shape(f"shape{index}-{number}", solid) for number, solid in enumerate(link.solids)
@@ -410,9 +416,10 @@ class _Writer:
         if "second-attachment-first" in self.quirks:
             ends.reverse()
         turn = math.radians if self.producer.radians else float
-        cone = self._limits(
-            "swing_cone_and_twist", [[turn(v) for v in end] for end in joint.angular]
-        )
+        low, high = ([turn(value) for value in end] for end in joint.angular)
+        if self.producer.mirrored:
+            low, high = [0.0 - value for value in high], [0.0 - value for value in low]
+        cone = self._limits("swing_cone_and_twist", [low, high])
         slide = self._limits("linear", [list(end) for end in joint.linear])
         linear_first = "linear-first" in self.quirks
         limits = tag("limits", *((slide, cone) if linear_first else (cone, slide)))
@@ -486,6 +493,8 @@ def meant(scene: Scene, producer: Producer) -> Scene:
     links = scene.links
     if "missing-nodes" in producer.always:
         links = tuple(replace(link, steps=(), parent=None) for link in links)
+    if producer.at_origin:
+        links = tuple(replace(link, centre=()) for link in links)
     return replace(
         scene, unit=producer.unit, up_axis=producer.up_axis, gravity=gravity, links=links
     )

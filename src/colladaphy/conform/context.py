@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import copy
+import math
+import re
 from collections import Counter
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache, lru_cache
 from typing import cast
@@ -67,6 +69,8 @@ class Context:
         self.far_lines: dict[etree._Element, int] = {}
         self.unplaced: set[etree._Element] = set()
         """Frames of mass that were made and do not say yet where they are."""
+        self.digits = 0
+        """Significant digits of the values that were converted, as the file has them."""
         self._only = None if only is None else frozenset(only)
         # The stubs of lxml do not know that a prefix may be None.
         self._map = cast(Mapping[str, str], {root.prefix: NAMESPACE})
@@ -172,6 +176,17 @@ class Context:
             insert(self.root, before, found)
         return found
 
+    def write(self, element: etree._Element, values: Iterable[float]) -> str:
+        """Set an element's text to numbers that were converted; returns what it was.
+
+        `digits` becomes the number of significant digits that the file has for such values: what
+        is computed from them is no more exact than they were.
+        """
+        words = (element.text or "").split()
+        self.digits = max([self.digits, *(digits_of(word) for word in words)])
+        element.text = " ".join(_spell(value) for value in values)
+        return " ".join(words)
+
     # -- keeping things -----------------------------------------------------------------------
 
     def place(self, near: etree._Element, profile: str | None = None) -> etree._Element:
@@ -241,6 +256,24 @@ def standard_elements_with(root: etree._Element, attribute: str) -> list[etree._
 def _having(attribute: str) -> etree.XPath:
     inside = "ancestor::*[local-name() = 'technique'][@profile]"
     return etree.XPath(f"/descendant-or-self::*[@{attribute}][not({inside})]")
+
+
+_MANTISSA = re.compile(r"[+-]?0*\.?0*([0-9]*)\.?([0-9]*)")
+
+
+def digits_of(word: str) -> int:
+    """The significant digits of a number as it is written."""
+    found = _MANTISSA.match(word)
+    return 0 if found is None else len(found[1]) + len(found[2])
+
+
+def _spell(value: float) -> str:
+    """A float as XML Schema spells it."""
+    if math.isnan(value):
+        return "NaN"
+    if math.isinf(value):
+        return "INF" if value > 0 else "-INF"
+    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(float(value))
 
 
 def _labels(parent: etree._Element) -> dict[etree._Element, str]:

@@ -21,7 +21,7 @@ from colladaphy.conform import (
 from colladaphy.conform.commas import mend_commas
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import translate
-from colladaphy.conform.conventions.units import free_limits
+from colladaphy.conform.conventions.units import free_limits, still_springs
 from colladaphy.conform.cycles import break_cycles
 from colladaphy.conform.dangling import set_aside_dangling
 from colladaphy.conform.identifiers import mend_ids, mend_sids
@@ -75,6 +75,7 @@ _REFERENCES: tuple[_Step, ...] = (
     references.mend_instances,
     references.mend_attachments,
     free_limits,
+    still_springs,
 )
 # What is moved into extras can no longer be referred to.
 _MOVED = frozenset(

@@ -394,6 +394,24 @@ FREE_LIMITS = Rule(
     "a free axis was not written with infinite limits",
     "it is -INF to INF now",
 )
+WORLD_JOINT = Rule(
+    "convention-world-joint",
+    _INFO,
+    "a joint had the same body at both ends",
+    "Bullet writes joints to the world so; its frame there is where the body is now",
+)
+MASS_CENTRE = Rule(
+    "convention-mass-centre",
+    _INFO,
+    "bodies had no mass_frame",
+    "to Bullet the centre of mass is the origin of the node, wherever the shapes are",
+)
+INERT_SPRING = Rule(
+    "convention-inert-spring",
+    _INFO,
+    "a spring without stiffness had a target that is no number",
+    "it pulls nowhere; its target is kept in an extra",
+)
 PLANE_SIGN = Rule(
     "convention-plane-sign",
     _INFO,

@@ -50,7 +50,10 @@ class BulletConstraint:
     """In the bodies; that of the world in the world."""
     low: list[float]
     high: list[float]
-    """Three linear limits, three angular ones in radians; an axis is free where low > high."""
+    """Three linear limits, three angular ones in radians; an axis is free where low > high.
+
+    The angles are Bullet's: minus those of COLLADA about each axis.
+    """
     collide: bool
 
 

@@ -74,6 +74,7 @@ def rewrite(
     constraints = {c.get("sid"): c for c in root.iter(NS + "rigid_constraint")}
     for user in root.iter(NS + "instance_rigid_constraint"):
         _bind(constraints[user.get("constraint")])
+        _close(constraints[user.get("constraint")])
     if new:
         _add(root, new)
     for element in root.iter(NS + "*"):
@@ -168,6 +169,16 @@ def _bind(constraint: etree._Element) -> None:
         attachment = constraint.find(NS + name)
         if attachment is not None:
             _attach(attachment)
+
+
+def _close(constraint: etree._Element) -> None:
+    """The world is written as the body itself, with the frame that the body has."""
+    first, second = constraint.find(NS + "ref_attachment"), constraint.find(NS + "attachment")
+    assert first is not None
+    assert second is not None
+    if not second.get("rigid_body"):
+        second.set("rigid_body", first.get("rigid_body", ""))
+        second[:] = [etree.fromstring(etree.tostring(child)) for child in first]
 
 
 def _attach(attachment: etree._Element) -> None:

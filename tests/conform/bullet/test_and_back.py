@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from lxml import etree
 from tests.conform.bullet import standard_reader
 from tests.conform.bullet.conftest import Export
-from tests.conform.bullet.rewritten import rewrite
+from tests.conform.bullet.rewritten import State, rewrite
 from tests.conform.bullet.scenes import scenes
+from tests.conform.bullet.test_bullet import constrained
 from tests.conform.bullet.test_same_meaning import free
 
 from colladaphy.conform import conform
@@ -31,6 +33,23 @@ def test_what_was_written_for_bullet_reads_back(document: bytes, export: Export)
 def test_what_bullet_saved_reads_back(document: bytes, export: Export) -> None:
     text, _ = export(document)
     compare(standard_reader.read(document), read_again(rewrite(text)), 1e-2)
+
+
+def test_a_joint_to_the_world_comes_back_where_the_body_is(export: Export) -> None:
+    turn = "<rotate>0 0 1 90</rotate>"
+    nodes = f"<node id='n'><translate>1 2 3</translate>{turn}</node><node id='o'/>"
+    places = f"<translate>1 0 0</translate>|<translate>1 3 3</translate>{turn}"
+    limits = "<limits><swing_cone_and_twist><min>0 0 -30</min><max>0 0 45</max>"
+    limits += "</swing_cone_and_twist></limits>"
+    before = constrained("rigid_body='m/b'", "", limits, nodes, places)
+    text, _ = export(before)
+    want = standard_reader.read(before)
+    saved = rewrite(text)
+    assert saved.count(b'rigid_body="b"') == 2
+    compare(want, read_again(saved), 1e-4)
+    moved = read_again(rewrite(text, {"b": State(position=(4, 2, 3))})).constraints[0]
+    assert (moved.first, moved.second) == (0, None)
+    assert moved.frames[1][:3, 3] == pytest.approx([4, 3, 3], abs=1e-4)
 
 
 def compare(want: standard_reader.Scene, got: standard_reader.Scene, tolerance: float) -> None:

@@ -452,9 +452,38 @@ def test_one_sided_limits_stay_limits(export: Export) -> None:
     ]
     text, findings = export(constrained(B, C, ANGULAR))
     (found,) = bullet_reader.read(text).constraints
-    assert found.low[3:] == pytest.approx([math.radians(-30), -math.pi, 1])
-    assert found.high[3:] == pytest.approx([math.pi, math.radians(45), 0])
+    assert found.low[3:] == pytest.approx([-math.pi, math.radians(-45), 1])
+    assert found.high[3:] == pytest.approx([math.radians(30), math.pi, 0])
     assert codes(findings).count("one-sided") == 2
+
+
+def test_bullet_measures_minus_the_angle(export: Export) -> None:
+    """A hinge turned by +0.5 rad between -0.3 and 0.9: to Bullet -0.5 between -0.9 and 0.3."""
+    limits = (
+        "<limits><swing_cone_and_twist><min>0 0 -17.188733853924695</min><max>0 0 "
+        "51.56620156177409</max></swing_cone_and_twist></limits>"
+    )
+    turned = "<node id='n'/><node id='o'><rotate>0 0 1 28.64788975654116</rotate></node>"
+    (found,) = bullet_reader.read(export(constrained(B, C, limits, turned))[0]).constraints
+    assert found.low[5] == pytest.approx(-0.9)
+    assert found.high[5] == pytest.approx(0.3)
+    assert found.second is not None
+    relative = (found.first.pose @ found.frames[0])[:3, :3].T @ (
+        found.second.pose @ found.frames[1]
+    )[:3, :3]
+    measured = -math.atan2(relative[1, 0], relative[0, 0])
+    assert measured - found.low[5] == pytest.approx(0.9 - 0.5)
+    assert found.high[5] - measured == pytest.approx(0.5 + 0.3)
+
+
+@pytest.mark.parametrize(("node", "second"), [("#o", "c"), ("#n", None)])
+def test_a_node_is_the_body_that_it_moves_and_beside_that_body_the_world(
+    export: Export, node: str, second: str | None
+) -> None:
+    text, _ = export(constrained(B, f"rigid_body='{node}'"))
+    (found,) = bullet_reader.read(text).constraints
+    assert found.first.sid == "b"
+    assert (None if found.second is None else found.second.sid) == second
 
 
 def test_a_constraint_to_the_world(export: Export) -> None:

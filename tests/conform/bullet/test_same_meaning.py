@@ -70,9 +70,17 @@ def compare_constraint(
         found.frames, want.frames, (found.first, found.second), strict=True
     ):
         assert np.allclose(body.pose @ frame, place, atol=1e-6)
-    for low, high, wanted_low, wanted_high in zip(
-        found.low, found.high, want.low, want.high, strict=True
-    ):
+    # Bullet measures minus the angle: what may turn from a to b turns from -b to -a there.
+    lows = [*found.low[:3], *(0.0 - value for value in found.high[3:])]
+    highs = [*found.high[:3], *(0.0 - value for value in found.low[3:])]
+    lows[3:], highs[3:] = zip(
+        *(
+            (1.0, 0.0) if pair == (0.0, -1.0) else pair
+            for pair in zip(lows[3:], highs[3:], strict=True)
+        ),
+        strict=True,
+    )
+    for low, high, wanted_low, wanted_high in zip(lows, highs, want.low, want.high, strict=True):
         if free(wanted_low, wanted_high):
             assert (low, high) == (1.0, 0.0)
         else:

@@ -37,12 +37,35 @@ def test_what_both_versions_say_alike_is_only_renamed(downgrade: Downgrade) -> N
     assert NS15 not in etree.tostring(new).decode()
 
 
-def test_comments_around_the_root_and_prefixes_stay(downgrade: Downgrade) -> None:
-    text = document("").replace("xmlns=", "xmlns:dae=").replace("<", "<dae:")
-    text = text.replace("<dae:/", "</dae:")
-    new, _ = downgrade(f"<!--a--><?b c?>{text}<!--d-->")
-    assert etree.tostring(new).startswith(b"<!--a--><?b c?><dae:COLLADA")
-    assert etree.tostring(new).endswith(b"</dae:COLLADA><!--d-->")
+def prefixed(text: str) -> str:
+    return text.replace("xmlns=", "xmlns:dae=").replace("<", "<dae:").replace("<dae:/", "</dae:")
+
+
+def test_comments_around_the_root_stay_and_its_prefix_goes(downgrade: Downgrade) -> None:
+    new, _ = downgrade(f"<!--a--><?b c?>{prefixed(document(''))}<!--d-->")
+    text = etree.tostring(new)
+    assert text.startswith(b"<!--a--><?b c?><COLLADA xmlns=")
+    assert text.endswith(b"</COLLADA><!--d-->")
+    assert b"dae" not in text
+
+
+def test_foreign_content_keeps_its_namespaces_declared_where_it_begins(
+    downgrade: Downgrade,
+) -> None:
+    content = '<p:a xmlns:p="urn:p" p:q="1"><b xmlns=""><p:c/></b></p:a><d xmlns=""/>'
+    outer = prefixed(document('<extra><technique profile="x">@</technique></extra>'))
+    outer = outer.replace("version=", 'xmlns:o="urn:o" version=')
+    new, _ = downgrade(outer.replace("@", content + "<o:e/>"))
+    root = etree.fromstring(etree.tostring(new))
+    assert root.nsmap == {None: NS14}
+    technique = root.find(f".//{{{NS14}}}technique")
+    assert [e.tag for e in technique.iterdescendants()] == [
+        "{urn:p}a",
+        "b",
+        "{urn:p}c",
+        "d",
+        "{urn:o}e",
+    ]
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,9 @@
-"""Constraints: all limits present and in radians, bodies by their plain sid (§rigid_constraint)."""
+"""Constraints: all limits present and in radians, bodies by their plain sid (§rigid_constraint).
+
+Bullet measures minus the angle of COLLADA about each axis, so that the angles from `lo` to `hi` are
+to it those from `-hi` to `-lo`. With one axis free this says the same; with several, the order of
+the turns differs, too.
+"""
 
 from __future__ import annotations
 
@@ -34,10 +39,11 @@ class End:
 def write_constraint(draft: Draft, constraint: Constraint, nodes: Nodes) -> bool:
     """Make Bullet read the constraint as it is meant; False where it has to be left out."""
     element = constraint.element
-    ends = []
+    ends: list[End] = []
     for name in ("ref_attachment", "attachment"):
         attachment = first(element, name)
-        end = None if attachment is None else _end(draft, constraint, attachment, nodes)
+        others = [end.body for end in ends]
+        end = None if attachment is None else _end(draft, constraint, attachment, nodes, others)
         if end is None:
             return False
         ends.append(end)
@@ -96,16 +102,21 @@ def _check_world(draft: Draft, constraint: Constraint, reference: End, world: En
 
 
 def _end(
-    draft: Draft, constraint: Constraint, attachment: etree._Element, nodes: Nodes
+    draft: Draft,
+    constraint: Constraint,
+    attachment: etree._Element,
+    nodes: Nodes,
+    others: list[Body | None],
 ) -> End | None:
+    """One end; a node means the body whose target it is, or the world beside that body itself."""
     reference = attachment.get("rigid_body", "").strip()
     frame = transform_of(attachment)
     if not reference:
         return End(attachment, None, frame)
     body = _body(constraint.level, reference)
-    if body is not None:
-        return End(attachment, body, frame)
     node = nodes.find(reference)
+    if body is not None and not (node is not None and body in others):
+        return End(attachment, body, frame)
     if node is not None:
         return End(attachment, None, nodes.world(node) @ frame)
     message = f"The constraint {constraint.element.get('sid')!r} binds {reference!r}, no body here."
@@ -171,7 +182,7 @@ def write_limits(draft: Draft, element: etree._Element) -> bool:
 def _pair(
     draft: Draft, element: etree._Element, low: float, high: float, angular: bool
 ) -> tuple[float, float]:
-    """Both limits of one axis as Bullet wants them; free is 1 and 0."""
+    """Both limits of one axis as Bullet wants them; free is 1 and 0, and angles are mirrored."""
     far_low, far_high = _far(low, angular), _far(high, angular)
     if low > high or (far_low and far_high):
         return 1.0, 0.0
@@ -181,8 +192,8 @@ def _pair(
         draft.note(rules.ONE_SIDED, element, message)
     if angular:
         return (
-            -math.pi if far_low else math.radians(low),
-            math.pi if far_high else math.radians(high),
+            -math.pi if far_high else 0.0 - math.radians(high),
+            math.pi if far_low else 0.0 - math.radians(low),
         )
     return (-_FAR if far_low else low, _FAR if far_high else high)
 

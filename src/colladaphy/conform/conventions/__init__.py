@@ -8,11 +8,11 @@ translated again; another (`written_for`) is left by our own writers for other p
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from colladaphy.conform import rules
 from colladaphy.conform.context import Context
-from colladaphy.conform.conventions import blender, model_frames, units
+from colladaphy.conform.conventions import blender, bullet, model_frames, units
 from colladaphy.conform.conventions.clues import Clues, add_note, drop_note, find_note, read_clues
 
 __all__ = ["CONVENTIONS", "Convention", "translate"]
@@ -36,14 +36,8 @@ def _frames(context: Context, named: bool, clues: Clues) -> None:
     model_frames.apply(context, forced=named)
 
 
-def _whole(clues: Clues) -> bool:
-    """Whether Bullet wrote all of a file, not only a model into another's."""
-    alone = "bullet" in clues.tools.lower() and ";" not in clues.tools
-    return alone or clues.written_for == "bullet"
-
-
 def _bullet(context: Context, named: bool, clues: Clues) -> None:
-    units.apply_bullet(context, whole=named or _whole(clues))
+    bullet.apply(context, whole=named or bullet.is_whole(clues))
 
 
 def _nothing(context: Context, named: bool, clues: Clues) -> None:
@@ -53,9 +47,15 @@ def _nothing(context: Context, named: bool, clues: Clues) -> None:
 CONVENTIONS: tuple[Convention, ...] = (
     Convention(
         "bullet",
-        "radians, planes n·x = D, halved cylinder heights",
-        units.recognise_bullet,
+        "radians, mirrored limits, planes n·x = D, halved cylinder heights",
+        bullet.recognise,
         _bullet,
+    ),
+    Convention(
+        "bullet-rewritten",
+        "another tool's file with the velocities that Bullet gave it, in radians",
+        bullet.recognise_rewritten,
+        lambda context, named, clues: bullet.apply_rewritten(context),
     ),
     Convention(
         "ros",
@@ -113,7 +113,7 @@ def translate(context: Context, convention: str) -> None:
         raise ValueError(f"there is no convention {convention!r}; choose one of {names}")
     if convention == "none" or find_note(context, "convention") is not None:
         return
-    clues = read_clues(context)
+    clues = replace(read_clues(context), rewritten=bullet.count_rewritten(context))
     named = by_name.get(convention)
     chosen = [(named, "asked for by name")] if named else _recognised(clues)
     if not chosen or not context.wants(rules.CONVENTION):
@@ -123,10 +123,17 @@ def translate(context: Context, convention: str) -> None:
         context.note(rules.CONVENTION, context.root, message)
         known.apply(context, named is not None, clues)
     drop_note(context, "written_for")  # true of the file, not of the translated document
-    add_note(context, "convention", name=" ".join(known.name for known, _ in chosen))
+    digits = {"digits": str(context.digits)} if context.digits else {}
+    names_of_chosen = " ".join(known.name for known, _ in chosen)
+    add_note(context, "convention", name=names_of_chosen, **digits)
 
 
 def _recognised(clues: Clues) -> list[tuple[Convention, str]]:
     """The first convention that fits; with Bullet also that of the file which Bullet edited."""
     fitting = [(known, why) for known in CONVENTIONS if (why := known.recognise(clues))]
-    return fitting[: 2 if fitting and fitting[0][0].name == "bullet" and not _whole(clues) else 1]
+    if not fitting or not fitting[0][0].name.startswith("bullet"):
+        return fitting[:1]
+    if bullet.is_whole(clues):
+        return fitting[:1]
+    others = [pair for pair in fitting[1:] if not pair[0].name.startswith("bullet")]
+    return [fitting[0], *others[:1]]

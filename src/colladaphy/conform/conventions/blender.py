@@ -10,7 +10,7 @@ from lxml import etree
 from colladaphy.conform import rules
 from colladaphy.conform.bodies import body_targets
 from colladaphy.conform.context import NS, Context, insert, local
-from colladaphy.conform.conventions.clues import Clues, extents, write_numbers
+from colladaphy.conform.conventions.clues import Clues, extents
 from colladaphy.conform.solids import numbers_of
 
 __all__ = ["apply", "recognise"]
@@ -73,7 +73,7 @@ def _read(context: Context, solid: etree._Element, reading: _Reading, evidence: 
     height, shape = solid.find(NS + "height"), solid.getparent()
     assert height is not None and shape is not None
     if factor != 1.0 and context.wants(rules.HALF_HEIGHT):
-        before = write_numbers(height, [factor * numbers_of(height)[0]])
+        before = context.write(height, [factor * numbers_of(height)[0]])
         message = f"<height> of a {local(solid)} was {before}, is now {height.text}: {evidence}"
         context.note(rules.HALF_HEIGHT, height, message)
     if axis == "z" and context.wants(rules.AXIS):

@@ -19,7 +19,6 @@ __all__ = [
     "find_note",
     "place_of",
     "read_clues",
-    "write_numbers",
 ]
 
 
@@ -28,7 +27,8 @@ class Clues:
     """Authoring tools and comments of the contributors, profiles of the techniques, ids of models.
 
     `written_for` is what our own writer noted: the program whose reading the file was made for.
-    `bare_pe` is true where the pe profile has no namespace of its own.
+    `bare_pe` is true where the pe profile has no namespace of its own. `rewritten` counts the
+    bodies that turn as Bullet writes it into the files of other tools.
     """
 
     tools: str
@@ -36,6 +36,8 @@ class Clues:
     models: frozenset[str]
     written_for: str | None
     bare_pe: bool
+    rewritten: int = 0
+    authors: str = ""
 
     def tool(self, *words: str) -> str | None:
         """The sentence about the first of these words that an authoring tool contains."""
@@ -44,14 +46,20 @@ class Clues:
                 return f"its authoring tool is {self.tools!r}"
         return None
 
+    def author(self, *words: str) -> str | None:
+        """The sentence about the first of these words that an author's name contains."""
+        for word in words:
+            if word.lower() in self.authors.lower():
+                return f"its author is {self.authors!r}"
+        return None
+
 
 def read_clues(context: Context) -> Clues:
     """Look at the contributors, the techniques and the models of a document."""
-    tools = [
-        " ".join((element.text or "").split())
-        for element in context.root.iter(NS + "authoring_tool")
-        if element.text
-    ]
+    tools, authors = (
+        [" ".join((element.text or "").split()) for element in context.root.iter(NS + name)]
+        for name in ("authoring_tool", "author")
+    )
     profiles = {
         str(element.get("profile"))
         for element in context.root.iter(NS + "technique")
@@ -66,7 +74,14 @@ def read_clues(context: Context) -> Clues:
         if technique.get("profile") == "pe"
         for child in technique.iterchildren(tag=etree.Element)
     )
-    return Clues("; ".join(tools), frozenset(profiles), frozenset(models), written_for, bare_pe)
+    return Clues(
+        "; ".join(filter(None, tools)),
+        frozenset(profiles),
+        frozenset(models),
+        written_for,
+        bare_pe,
+        authors="; ".join(filter(None, authors)),
+    )
 
 
 def find_note(context: Context, name: str) -> etree._Element | None:
@@ -107,21 +122,6 @@ def place_of(element: etree._Element) -> Matrix | None:
     except ValueError:
         return None
     return place if are_usable(place.ravel().tolist()) else None
-
-
-def write_numbers(element: etree._Element, values: list[float]) -> str:
-    """Set an element's text to numbers; returns what it was."""
-    before = " ".join((element.text or "").split())
-    element.text = " ".join(_spell(value) for value in values)
-    return before
-
-
-def _spell(value: float) -> str:
-    if np.isnan(value):
-        return "NaN"
-    if np.isinf(value):
-        return "INF" if value > 0 else "-INF"
-    return str(int(value)) if value == int(value) and abs(value) < 1e15 else repr(float(value))
 
 
 def extents(context: Context, geometry: etree._Element | None) -> Matrix | None:

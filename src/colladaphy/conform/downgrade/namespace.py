@@ -1,4 +1,9 @@
-"""The last step: the same tree in the namespace of COLLADA 1.4.1."""
+"""The last step: the same tree in the namespace of COLLADA 1.4.1.
+
+It is the default namespace of what is written: neither Bullet's converter nor collada-dom reads
+elements with a prefix. Both drop the declarations of the root when they save, so that prefixes of
+foreign content are declared where that begins.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +44,7 @@ _GLOBAL = frozenset(_GLOBAL_NAMES.split())
 def in_namespace_1_4(draft: Draft) -> etree._Element:
     """A new tree, in the namespace and of the version 1.4.1; foreign content stays as it is."""
     old = draft.root
-    new = etree.Element(_renamed(old.tag), nsmap=_prefixes(old, rename=True))
+    new = etree.Element(_renamed(old.tag), nsmap=cast("dict[str, str]", {None: NS14}))
     _copy_values(draft, old, new, standard=True)
     new.set("version", VERSION)
     # Each entry: the new parent, the old child, how to treat its names.
@@ -88,7 +93,10 @@ def _renamed(tag: str) -> str:
 
 def _foreign(parent: etree._Element, element: etree._Element, *, rename: bool) -> etree._Element:
     tag = _renamed(element.tag) if rename else element.tag
-    return etree.SubElement(parent, tag, nsmap=_prefixes(element, rename=rename))
+    prefixes = _prefixes(element, rename=rename)
+    if not tag.startswith("{"):
+        prefixes = {**prefixes, **cast("dict[str, str]", {None: ""})}  # not in the default one
+    return etree.SubElement(parent, tag, nsmap=prefixes)
 
 
 def _prefixes(element: etree._Element, *, rename: bool) -> dict[str, str]:
