@@ -13,6 +13,7 @@ from xsdata.formats.dataclass.generator import DataclassGenerator
 from xsdata.formats.mixins import GeneratorResult
 from xsdata.models.config import GeneratorConfig
 
+from tools.bindings.columns import columns_module
 from tools.bindings.common import PACKAGE, ancestry
 from tools.bindings.model import Model, Record
 from tools.bindings.modules import MARK, codec_module, package_module, package_stub, registry_module
@@ -68,6 +69,9 @@ class BindingsGenerator(DataclassGenerator):
             ]
             yield GeneratorResult(
                 root / f"{module}_codec.py", module, codec_module(module, records)
+            )
+            yield GeneratorResult(
+                root / f"{module}_columns.py", module, columns_module(module, records, model)
             )
         records = list(model.records.values())
         yield GeneratorResult(root / "registry.py", "registry", registry_module(records, lazy))

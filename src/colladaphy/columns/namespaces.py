@@ -1,0 +1,157 @@
+"""Which names, as they are written, are which qualified names."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.columns.index import Index
+from colladaphy.columns.names import NotPlain, word_view
+from colladaphy.columns.texts import Ranges
+
+__all__ = ["codes_by_name"]
+
+Array = NDArray[Any]
+
+_XMLNS = int.from_bytes(b"xmlns", "little")
+_FIVE = (1 << 40) - 1
+_COLON, _EQUALS = 58, 61
+
+
+class _Declarations(NamedTuple):
+    """Attributes that declare namespaces, in the order of the document."""
+
+    rows: Array
+    """(n,) the elements."""
+    kinds: Array
+    """(n,) which of the different declarations it is."""
+    prefixes: list[bytes]
+    """(k,) of each different one; empty for the default namespace."""
+    uris: list[bytes]
+
+
+def codes_by_name(index: Index) -> dict[str, tuple[int, ...]]:
+    """The codes of the names of elements, by qualified name.
+
+    Where a prefix stands for different namespaces in different places, the elements of it get
+    codes of their own first.
+    """
+    declared = _declarations(index)
+    names: defaultdict[bytes, list[int]] = defaultdict(list)
+    for code, name in enumerate(index.names.texts):
+        names[name.rpartition(b":")[0]].append(code)
+    meanings: defaultdict[bytes, list[int]] = defaultdict(list)
+    for kind, prefix in enumerate(declared.prefixes):
+        meanings[prefix].append(kind)
+    found: defaultdict[str, list[int]] = defaultdict(list)
+    for prefix, codes in names.items():
+        kinds = meanings[prefix]
+        # An undeclared prefix is not well-formed, but without a default there is no namespace.
+        everywhere = (
+            prefix or not kinds or bool(np.any(declared.kinds[declared.rows == 0] == kinds[0]))
+        )
+        if len(kinds) < 2 and everywhere:
+            uri = declared.uris[kinds[0]] if kinds else b""
+            for code in codes:
+                found[_qualified(uri, index.names.texts[code])].append(code)
+        else:
+            _separate(index, codes, kinds, declared, found)
+    return {name: tuple(codes) for name, codes in found.items()}
+
+
+def _qualified(uri: bytes, name: bytes) -> str:
+    local = name.rpartition(b":")[2].decode()
+    return f"{{{uri.decode()}}}{local}" if uri else local
+
+
+def _declarations(index: Index) -> _Declarations:
+    """All declarations; there may be one in every other element, but hardly any different ones."""
+    names, values, rows = _attributes(index)
+    if not len(rows):
+        return _Declarations(rows, rows, [], [])
+    texts = _different(Ranges(index.bytes, names.starts, values.stops))
+    prefixes, uris = [], []
+    for text in texts[1]:
+        name, _, uri = text.partition(b'="')
+        if b"&" in uri:
+            raise NotPlain("a reference in the name of a namespace")
+        prefixes.append(name.partition(b":")[2])
+        uris.append(uri)
+    return _Declarations(rows, texts[0], prefixes, uris)
+
+
+def _different(ranges: Ranges) -> tuple[Array, list[bytes]]:
+    """Which of the different texts each one is, and those."""
+    if ranges.all_equal():
+        return np.zeros(len(ranges), np.int64), ranges.part(0, 1).texts()
+    numbers: dict[bytes, int] = {}
+    kinds = [numbers.setdefault(text, len(numbers)) for text in ranges.texts()]
+    return np.array(kinds, np.int64), list(numbers)
+
+
+def _attributes(index: Index) -> tuple[Ranges, Ranges, Array]:
+    """The names and values of attributes that declare namespaces, and their elements."""
+    opens = index.quote_places[::2]
+    closes = index.quote_places[1::2]
+    data = index.bytes
+    # The name is behind the end of the value before it, or of the element's name.
+    starts = np.empty(len(opens), opens.dtype)
+    starts[1:] = closes[:-1] + 1
+    starts[index.first_quote >> 1] = index.name_end
+    candidates = np.flatnonzero(opens - starts >= 7)
+    start = starts[candidates].astype(np.intp)
+    while True:  # there is one blank, mostly
+        more = np.flatnonzero(np.isin(data[start], (9, 10, 13, 32)))
+        if not len(more):
+            break
+        start[more] += 1
+    view = word_view(data)
+    same = np.zeros(len(start), np.bool_)
+    fits = start < len(view)
+    same[fits] = (view[start[fits]] & np.uint64(_FIVE)) == np.uint64(_XMLNS)
+    after = data[start + 5]
+    same &= (after == _COLON) | (after == _EQUALS)
+    places, start = candidates[same], start[same]
+    rows = index.attributed[np.searchsorted(index.first_quote, places * 2, side="right") - 1]
+    return (
+        Ranges(data, start, opens[places] - 1),
+        Ranges(data, opens[places] + 1, closes[places]),
+        rows,
+    )
+
+
+def _separate(
+    index: Index,
+    codes: list[int],
+    kinds: list[int],
+    declared: _Declarations,
+    found: defaultdict[str, list[int]],
+) -> None:
+    """Give elements whose prefix means different things codes by what it means where they are."""
+    rows = np.sort(np.concatenate([index.rows(code) for code in codes]))
+    meaning = np.full(len(rows), -1, np.int64)
+    here = np.flatnonzero(np.isin(declared.kinds, kinds))
+    begins = declared.rows[here]
+    lasts = index.last_within(begins)
+    spans = zip(
+        np.searchsorted(rows, begins).tolist(),
+        np.searchsorted(rows, lasts, side="right").tolist(),
+        declared.kinds[here].tolist(),
+        strict=True,
+    )
+    for begin, end, kind in spans:  # in the order of the document: the inner ones come later
+        meaning[begin:end] = kind
+    for code in codes:
+        mine = index.rows(code)
+        means = meaning[np.searchsorted(rows, mine)]
+        by_uri: defaultdict[bytes, list[int]] = defaultdict(list)
+        for kind in np.unique(means).tolist():
+            by_uri[declared.uris[kind] if kind >= 0 else b""].append(kind)
+        for uri, same in by_uri.items():
+            inside = mine if len(by_uri) == 1 else mine[np.isin(means, same)]
+            name = index.names.texts[code]
+            fresh = code if len(inside) == len(mine) else index.new_code(code, inside)
+            found[_qualified(uri, name)].append(fresh)

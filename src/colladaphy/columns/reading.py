@@ -1,0 +1,379 @@
+"""Reading columns: the rows of a document, by the classes that are generated from the schema."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any, TypeVar
+
+import numpy as np
+from lxml import etree
+from numpy.typing import NDArray
+
+from colladaphy.columns.index import BLOCK, Index, NotPlain
+from colladaphy.columns.names import LOW, word_view
+from colladaphy.columns.namespaces import codes_by_name
+from colladaphy.columns.places import Place, Places
+from colladaphy.columns.plain import Tree, plain, serialised
+from colladaphy.columns.texts import (
+    Ranges,
+    boolean_lists_of,
+    booleans_of,
+    floats_of,
+    integers_of,
+    strings_of,
+    words_of,
+)
+from colladaphy_schema.rows import Child, Column, Lists, Masked, Rows
+
+__all__ = ["Document"]
+
+Array = NDArray[Any]
+R = TypeVar("R", bound=Rows)
+U = np.uint64
+
+_TECHNIQUE = "{http://www.collada.org/2008/03/COLLADASchema}technique"
+_EXTRA = "{http://www.collada.org/2008/03/COLLADASchema}extra"
+_BLANKS = np.zeros(256, dtype=np.bool_)
+_BLANKS[[9, 10, 13, 32]] = True
+_READERS = {"float": floats_of, "integer": integers_of, "boolean": boolean_lists_of}
+_FILLERS = {"float": np.nan, "integer": 0, "boolean": False}
+
+
+class Document:
+    """A document as columns: `rows` gives all elements of a kind.
+
+    `Document.of` takes any valid document; the bytes given to the class itself have to be plain
+    (see `colladaphy.columns.plain`).
+    """
+
+    def __init__(self, data: bytes | bytearray, start: int = 0, *, block: int = BLOCK) -> None:
+        self.index = Index(data, start, block)
+        self.places = Places(self.index, bytes(data) if isinstance(data, bytearray) else data)
+        """Where its elements stand in the source as it came."""
+        self._entities = b"&" in data
+        self._blanked = b"\0" in data
+        self._codes = codes_by_name(self.index)
+        self._attribute_rows: Array | None = None
+        self._names: dict[int, str] | None = None
+
+    @classmethod
+    def of(cls, data: bytes, tree: Tree = None, *, block: int = BLOCK) -> Document:
+        """A valid document in any spelling.
+
+        `tree` is the parsed tree of it, or what parses it if that is needed.
+        """
+        text, start = plain(data, tree)
+        direct = len(text) == len(data) and (text is data or isinstance(text, bytearray))
+        try:
+            made = cls(text, start, block=block)
+        except NotPlain:
+            text, start = serialised(data, tree)
+            direct = False
+            made = cls(text, start, block=block)
+        made.places = Places(made.index, data if direct else None, tree)
+        return made
+
+    def place(self, ordinal: int) -> Place:
+        """Line and column of an element in the source."""
+        return self.places.place(ordinal)
+
+    def element(self, ordinal: int) -> etree._Element:
+        """The element of the tree that the document was made with."""
+        return self.places.element(ordinal)
+
+    def texts_within(self, ordinals: Iterable[int]) -> list[bytes]:
+        """The bytes of whole elements, from the start tag to the end tag."""
+        return self.places.texts_within(ordinals)
+
+    # --- rows
+
+    def rows(self, kind: type[R], *tags: str) -> R:
+        """All elements of some names as rows of a class, but for those in foreign techniques."""
+        found = self._elements(tags)
+        found = found[~self._is_foreign(found)]
+        return kind(len(found), owners=len(found), origin=self, ordinals=found)
+
+    def _elements(self, tags: tuple[str, ...]) -> Array:
+        parts = [self.index.rows(code) for tag in tags for code in self._codes.get(tag, ())]
+        if len(parts) == 1:
+            return parts[0]
+        return np.sort(np.concatenate(parts)) if parts else np.zeros(0, np.int32)
+
+    def _is_foreign(self, rows: Array) -> Array:
+        """Which elements stand in a technique of a profile."""
+        foreign = np.zeros(len(rows), np.bool_)
+        codes = self._codes.get(_TECHNIQUE)
+        if codes is None:
+            return foreign
+        index = self.index
+        above = index.parent[rows]
+        while len(above) and bool(np.any(above > 0)):
+            foreign |= np.isin(index.codes[above], codes)
+            above = np.maximum(index.parent[above], 0)
+        return foreign
+
+    # --- single elements, by their numbers in the document
+
+    def with_attribute(self, name: str) -> tuple[Array, list[str]]:
+        """The elements that have an attribute, and its values; not those in foreign techniques."""
+        every = self.index.attributed
+        rows = Rows(len(every), owners=len(every), origin=self, ordinals=every)
+        there, ranges = self._attribute(rows, name)
+        found = every if there is None else every[there]
+        mine = np.flatnonzero(~self._is_foreign(found))
+        texts = strings_of(ranges.take(mine), "token", attribute=True, entities=self._entities)
+        return found[mine], texts
+
+    def parent_of(self, element: int) -> int:
+        """The element around one; -1 for the root."""
+        return int(self.index.parent[element])
+
+    def end_of(self, element: int) -> int:
+        """The number behind that of the last descendant."""
+        parent, start, step = self.index.parent, element + 1, 64
+        while start < len(parent):
+            outside = np.flatnonzero(parent[start : start + step] < element)
+            if len(outside):
+                return start + int(outside[0])
+            start, step = start + step, 2 * step
+        return len(parent)
+
+    def local_name(self, element: int) -> str:
+        """The name without a namespace."""
+        return self._name_of(element).rpartition("}")[2]
+
+    def record_texts(self, element: int) -> list[bytes]:
+        """The texts of an element and those in it, without what stands in profiles and extras."""
+        index = self.index
+        left_out = {*self.codes_of(_TECHNIQUE), *self.codes_of(_EXTRA)}
+        kept = []
+        row, end = element, self.end_of(element)
+        while row < end:
+            if int(index.codes[row]) in left_out:
+                row = self.end_of(row)
+                continue
+            kept.append(row)
+            row += 1
+        return self._texts(np.array(kept, np.int32)).texts()
+
+    def codes_of(self, tag: str) -> tuple[int, ...]:
+        """The codes of a qualified name in the index."""
+        return self._codes.get(tag, ())
+
+    def is_profile(self, element: int) -> bool:
+        """Whether an element is a technique of some profile."""
+        return self._name_of(element) == _TECHNIQUE
+
+    def attribute_of(self, element: int, name: str) -> str | None:
+        """An attribute of one element, by its name as it is written."""
+        one = np.array([element], np.int32)
+        rows = Rows(1, owners=1, origin=self, ordinals=one)
+        there, ranges = self._attribute(rows, name)
+        if there is not None:
+            return None
+        return strings_of(ranges, "token", attribute=True, entities=self._entities)[0]
+
+    def _name_of(self, element: int) -> str:
+        if self._names is None:
+            self._names = {code: name for name, codes in self._codes.items() for code in codes}
+        return self._names[int(self.index.codes[element])]
+
+    def children(self, rows: Rows, child: Child[Any]) -> Any:
+        """The rows of a child element (see `colladaphy_schema.rows.Source`)."""
+        found, owner = self._below(rows, child.tag)
+        return child.type(
+            len(found), owner, owners=len(rows), origin=self, ordinals=found, empty=child.empty
+        )
+
+    def _below(self, rows: Rows, tag: str) -> tuple[Array, Array | None]:
+        """The children of a name of all rows, and the row of each; None where all have one."""
+        found = self._elements((tag,))
+        mine = rows.ordinals
+        assert mine is not None
+        if not len(mine) or not len(found):
+            return found[:0], np.zeros(0, np.int64)
+        parents = self.index.parent[found]
+        if len(found) == len(mine) and np.array_equal(parents, mine):
+            return found, None
+        scratch = self.index.scratch
+        scratch[mine] = np.arange(len(mine), dtype=np.int32)
+        owner = scratch[parents]
+        here = np.flatnonzero(
+            (owner < len(mine)) & (mine[np.minimum(owner, len(mine) - 1)] == parents)
+        )
+        owner = owner[here]
+        if len(here) != len(found):
+            found = found[here]
+        if len(owner) == len(mine) and np.array_equal(owner, np.arange(len(mine))):
+            return found, None
+        return found, owner.astype(np.int64)
+
+    # --- columns
+
+    def column(self, rows: Rows, column: Column[Any]) -> Any:
+        """The values of a column (see `colladaphy_schema.rows.Source`)."""
+        count = len(rows)
+        empty = column.empty
+        attribute = column.form == "attribute"
+        if attribute:
+            there, ranges = self._attribute(rows, column.tag)
+        elif column.form == "element":
+            found, owner = self._below(rows, column.tag)
+            there = owner
+            ranges = self._texts(found)
+        else:
+            assert rows.ordinals is not None
+            there, ranges = None, self._texts(rows.ordinals)
+            empty = rows.empty_text
+        whole = there is None or len(there) == count
+        if column.kind not in _FILLERS:
+            return self._strings(ranges, column, there, whole, count, empty, attribute)
+        if column.tokens and column.width is None:
+            return self._lists(ranges, column, there, whole, count)
+        values = self._values(ranges, column, empty)
+        if whole:
+            present = np.ones(count, np.bool_) if column.optional else None
+        else:
+            assert there is not None
+            shape = (count, *values.shape[1:])
+            filler = _FILLERS[column.kind] if column.default is None else column.default
+            filled = np.full(shape, filler, dtype=values.dtype)
+            filled[there] = values
+            values = filled
+            present = np.zeros(count, np.bool_)
+            present[there] = True
+        return Masked(values, present) if column.optional and present is not None else values
+
+    def stated(self, rows: Rows, column: Column[Any]) -> Array:
+        """Where the attribute of a column is there (n,)."""
+        there, _ = self._attribute(rows, column.tag)
+        found = np.zeros(len(rows), np.bool_)
+        found[slice(None) if there is None else there] = True
+        return found
+
+    def _values(self, ranges: Ranges, column: Column[Any], empty: str) -> Array:
+        blank = ranges.stops <= ranges.starts
+        if empty and bool(blank.any()):
+            one = np.frombuffer(empty.encode(), np.uint8)
+            default = self._values(Ranges(one, np.array([0]), np.array([len(one)])), column, "")
+            values = np.repeat(default, len(ranges), axis=0)
+            full = np.flatnonzero(~blank)
+            values[full] = self._values(ranges.take(full), column, "")
+            return values
+        if column.kind == "boolean" and not column.tokens:
+            return booleans_of(ranges)
+        values, counts = _READERS[column.kind](ranges)
+        if column.width is None:
+            if len(values) != len(ranges):
+                raise ValueError(f"there are {len(values)} numbers in {len(ranges)} texts")
+            return values
+        if len(values) != column.width * len(ranges) or (
+            counts is not None and bool(np.any(counts != column.width))
+        ):
+            raise ValueError(f"lists of <{column.name}> have not {column.width} numbers each")
+        return values.reshape(len(ranges), column.width)
+
+    def _lists(
+        self, ranges: Ranges, column: Column[Any], there: Array | None, whole: bool, count: int
+    ) -> Lists:
+        values, counts = _READERS[column.kind](ranges)
+        if counts is None:
+            each = len(values) // max(len(ranges), 1)
+            counts = np.full(len(ranges), each, np.int64)
+        present = None
+        if not whole:
+            assert there is not None
+            spread = np.zeros(count, np.int64)
+            spread[there] = counts
+            counts = spread
+            present = np.zeros(count, np.bool_)
+            present[there] = True
+        return Lists(values, np.concatenate([[0], np.cumsum(counts)]), present)
+
+    def _strings(
+        self,
+        ranges: Ranges,
+        column: Column[Any],
+        there: Array | None,
+        whole: bool,
+        count: int,
+        empty: str,
+        attribute: bool,
+    ) -> list[Any]:
+        texts: list[Any] = strings_of(
+            ranges, column.kind, attribute=attribute, entities=self._entities
+        )
+        if empty:
+            texts = [text or empty for text in texts]
+        if column.tokens:
+            texts = [words_of(text) for text in texts]
+        if whole:
+            return texts
+        assert there is not None
+        default = list(column.default) if column.tokens and column.default == () else column.default
+        spread = [default] * count
+        for row, text in zip(there.tolist(), texts, strict=True):
+            spread[row] = text
+        return spread
+
+    def _texts(self, elements: Array) -> Ranges:
+        """What stands in elements of simple content."""
+        index = self.index
+        stops = index.stop[elements]
+        starts = stops + 1
+        ends = index.text_end[elements]
+        empty = index.is_empty(elements)
+        if bool(empty.any()):
+            ends = np.where(empty, starts, ends)
+        return Ranges(index.bytes, starts, ends)
+
+    def ranges(self, rows: Rows, name: str) -> tuple[Array | None, Ranges]:
+        """Where the values of an attribute stand: the rows that have one (None: all), the bytes."""
+        return self._attribute(rows, name)
+
+    def _attribute(self, rows: Rows, name: str) -> tuple[Array | None, Ranges]:
+        """The rows that have an attribute (None: all), and where their values stand."""
+        index = self.index
+        mine = rows.ordinals
+        assert mine is not None
+        if self._attribute_rows is None:
+            self._attribute_rows = np.full(len(index), -1, np.int32)
+            self._attribute_rows[index.attributed] = np.arange(
+                len(index.attributed), dtype=np.int32
+            )
+        at = self._attribute_rows[mine]
+        count = np.where(at >= 0, index.quotes[at] if len(index.quotes) else 0, 0)
+        first = index.first_quote[at] if len(index.quotes) else at
+        start = np.full(len(mine), -1, index.stop.dtype)
+        stop = start.copy()
+        key = name.encode()
+        places = index.quote_places
+        for pair in range(0, int(count.max(initial=0)), 2):
+            here = np.flatnonzero((count > pair) & (start < 0))
+            if not len(here):
+                continue
+            opens = places[first[here] + pair].astype(np.intp)
+            same = self._ends_with(opens - 1, key)
+            here, opens = here[same], opens[same]
+            start[here] = opens + 1
+            stop[here] = places[first[here] + pair + 1]
+        found = start >= 0
+        if bool(found.all()):
+            return None, Ranges(index.bytes, start, stop)
+        there = np.flatnonzero(found)
+        return there, Ranges(index.bytes, start[there], stop[there])
+
+    def _ends_with(self, ends: Array, key: bytes) -> Array:
+        """Whether a key, with a blank before it, ends at each place."""
+        data = self.index.bytes
+        view = word_view(data)
+        start = ends - len(key)
+        same = start > 0
+        start = np.maximum(start, 1)
+        same &= _BLANKS[data[start - 1]]
+        for place in range(0, len(key), 8):
+            part = key[place : place + 8]
+            word = U(int.from_bytes(part, "little"))
+            at = np.minimum(start + place, len(view) - 1)
+            same &= (view[at] & LOW[len(part)]) == word
+        return same
