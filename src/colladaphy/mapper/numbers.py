@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from colladaphy.mapper.bulk import texts_of
 
@@ -19,6 +19,7 @@ __all__ = [
     "DEGREE",
     "column_texts",
     "degrees_exactly",
+    "differs",
     "float_text",
     "floats_text",
     "row_texts",
@@ -59,6 +60,30 @@ def same_bits(first: Array, second: Array) -> Array:
     one = np.ascontiguousarray(first, dtype=np.float64).view(np.int64)
     other = np.ascontiguousarray(second, dtype=np.float64).view(np.int64)
     return np.asarray(one == other)
+
+
+def differs(rows: Array, other: ArrayLike) -> NDArray[np.bool_]:
+    """Which rows (n, …) are not the same as those of `other`, or as one row, in every bit."""
+    count = len(rows)
+    if not count:
+        return np.zeros(0, np.bool_)
+    bits = _bits(rows).reshape(count, -1)
+    others = _bits(np.asarray(other))
+    if others.ndim == rows.ndim:
+        if np.array_equal(bits, others.reshape(bits.shape)):
+            return np.zeros(count, np.bool_)
+        others = others.reshape(bits.shape)
+    else:
+        others = np.broadcast_to(others.reshape(-1), bits.shape[1:])
+    # Column by column: numpy is slow to reduce rows that are short.
+    found = np.zeros(count, np.int64)
+    for column in range(bits.shape[1]):
+        found |= bits[:, column] ^ others[..., column]
+    return np.asarray(found != 0)
+
+
+def _bits(values: Array) -> Array:
+    return np.ascontiguousarray(values, dtype=np.float64).view(np.int64)
 
 
 def degrees_exactly(radians: Array) -> tuple[Array, Array]:
