@@ -52,7 +52,7 @@ def test_the_wheel_holds_schema_and_generated_package(wheel: Path) -> None:
     assert {
         "colladaphy/__init__.py",
         "colladaphy/py.typed",
-        "colladaphy/schema.py",
+        "colladaphy/gate/schema.py",
         "colladaphy_schema/__init__.py",
         "colladaphy_schema/py.typed",
     } <= names
@@ -83,8 +83,8 @@ def test_the_sdist_holds_what_the_wheel_is_built_from(
 
 def test_an_installed_wheel_works_without_the_checkout(installed: Path) -> None:
     code = (
-        "import colladaphy, colladaphy.schema, colladaphy_schema as s\n"
-        "print(colladaphy.__file__, s.__file__, colladaphy.schema.schema_folder())\n"
+        "import colladaphy, colladaphy.gate, colladaphy_schema as s\n"
+        "print(colladaphy.__file__, s.__file__, colladaphy.gate.schema_folder())\n"
         f"assert colladaphy.validate({DOCUMENT!r}.encode()).valid\n"
         f"assert colladaphy.read({DOCUMENT!r}.encode()).root.asset\n"
     )

@@ -15,7 +15,7 @@ from xsdata.formats.dataclass.parsers.config import ParserConfig
 from xsdata.formats.dataclass.serializers import XmlSerializer
 
 import colladaphy_schema
-from colladaphy.schema import gate
+from colladaphy.gate import gate
 from colladaphy.testing import covering_documents, documents
 from colladaphy_schema.codec import decode_document, encode_document
 from colladaphy_schema.document import Collada

@@ -6,7 +6,7 @@ from lxml import etree
 
 from colladaphy.conform import conform
 from colladaphy.findings import Finding
-from colladaphy.schema import gate
+from colladaphy.gate import gate
 
 NS_1_5 = "http://www.collada.org/2008/03/COLLADASchema"
 NS_1_4 = "http://www.collada.org/2005/11/COLLADASchema"

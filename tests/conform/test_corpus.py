@@ -11,7 +11,7 @@ from lxml import etree
 
 from colladaphy.conform import conform
 from colladaphy.conform.context import standard_elements
-from colladaphy.schema import gate
+from colladaphy.gate import gate
 
 CORPUS = Path(__file__).resolve().parents[3] / "shared" / "corpus"
 MALFORMED = "colladatools-simple-arm-hostile.dae"

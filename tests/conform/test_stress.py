@@ -9,7 +9,7 @@ from tests.conform.documents import NS_1_4, NS_1_5, codes
 
 from colladaphy.conform import conform
 from colladaphy.conform.context import standard_elements, standard_elements_with
-from colladaphy.schema import gate
+from colladaphy.gate import gate
 from colladaphy.testing import documents, mutants
 
 

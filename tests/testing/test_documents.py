@@ -12,7 +12,7 @@ from lxml import etree
 from tools.schema_equivalence.loading import STUBS
 
 from colladaphy.conform.grammar import NAMESPACE
-from colladaphy.schema import gate, schema_folder
+from colladaphy.gate import gate, schema_folder
 from colladaphy.testing import (
     AREAS,
     MUTATIONS,

@@ -9,7 +9,7 @@ from lxml import etree
 from colladaphy.conform import rules
 from colladaphy.conform.context import NS, Context, local, standard_elements, standard_elements_with
 from colladaphy.conform.lexical import name_from
-from colladaphy.schema_references import EXPECTED
+from colladaphy.gate.references import EXPECTED
 
 __all__ = ["mend_ids", "mend_sids"]
 

@@ -27,7 +27,7 @@ from colladaphy.conform.lexical import is_valid, mend
 from colladaphy.conform.numerals import plain_numbers
 from colladaphy.conform.plan import Plan, Pool, set_children
 from colladaphy.findings import Rule
-from colladaphy.schema import gate
+from colladaphy.gate import gate
 
 __all__ = ["drop_foreign_types", "normalise"]
 

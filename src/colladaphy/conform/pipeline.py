@@ -31,7 +31,7 @@ from colladaphy.conform.placing import split_matrices
 from colladaphy.conform.profiles import mend_profiles
 from colladaphy.conform.versions import copy_as_1_5, detect_version, note_version
 from colladaphy.findings import Finding
-from colladaphy.schema import is_valid_text
+from colladaphy.gate import is_valid_text
 
 __all__ = ["conform"]
 

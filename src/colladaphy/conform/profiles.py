@@ -15,7 +15,7 @@ from colladaphy.conform import rules
 from colladaphy.conform.context import Context, local, remove
 from colladaphy.conform.grammar import SimpleType
 from colladaphy.conform.lexical import is_valid, mend
-from colladaphy.schema import is_valid_text, schema_folder
+from colladaphy.gate import is_valid_text, schema_folder
 
 __all__ = ["PE", "mend_profiles"]
 

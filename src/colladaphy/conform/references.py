@@ -11,7 +11,7 @@ from colladaphy.conform import rules
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.lexical import name_from
 from colladaphy.conform.structure import typed_elements
-from colladaphy.schema_references import EXPECTED
+from colladaphy.gate.references import EXPECTED
 
 __all__ = ["complete_instances", "mend_attachments", "mend_instances", "mend_urls"]
 

@@ -10,7 +10,7 @@ from lxml import etree
 from colladaphy.document import rules
 from colladaphy.document.names import c
 from colladaphy.errors import DocumentError, SchemaError
-from colladaphy.schema import gate
+from colladaphy.gate import gate
 from colladaphy.source.copying import copy_tree
 
 if TYPE_CHECKING:

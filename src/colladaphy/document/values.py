@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING
 
 from lxml import etree
 
-from colladaphy import schema_rules
 from colladaphy.errors import ColladaError, SchemaError
 from colladaphy.findings import Finding, Report
-from colladaphy.schema_numerals import incomplete_numbers
+from colladaphy.gate import rules as schema_rules
+from colladaphy.gate.numerals import incomplete_numbers
 
 if TYPE_CHECKING:
     from colladaphy.document.document import Document

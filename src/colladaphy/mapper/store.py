@@ -13,6 +13,7 @@ import numpy as np
 from lxml import etree
 
 from colladaphy.errors import SchemaError
+from colladaphy.gate import gate, is_valid_text
 from colladaphy.mapper.body_texts import (
     ShapeTexts,
     identity,
@@ -28,7 +29,6 @@ from colladaphy.mapper.mesh_texts import mesh_text
 from colladaphy.mapper.numbers import float_text, floats_text, same_bits
 from colladaphy.mapper.options import WriteOptions
 from colladaphy.mapper.union_texts import UnionTexts, mass_frame
-from colladaphy.schema import gate, is_valid_text
 from colladaphy.world.columns import BODY_FIELDS
 from colladaphy.world.kinds import Kind
 from colladaphy_schema.codec import paused_collector

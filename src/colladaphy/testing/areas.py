@@ -9,7 +9,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from colladaphy.schema import schema_folder
+from colladaphy.gate import schema_folder
 
 __all__ = ["Areas", "areas"]
 

@@ -15,7 +15,7 @@ from lxml import etree
 from colladaphy.document import rules
 from colladaphy.errors import ColladaError
 from colladaphy.findings import Finding, Severity
-from colladaphy.schema_references import EXPECTED
+from colladaphy.gate.references import EXPECTED
 from colladaphy.source import COLLADA_1_5
 from colladaphy.source import rules as source_rules
 

@@ -9,7 +9,7 @@ from lxml import etree
 
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report
-from colladaphy.schema import gate
+from colladaphy.gate import gate
 from colladaphy.source import Limits, Parsed, Source, Target, packed_for, parse, save
 
 __all__ = ["Mended", "mend", "unified_diff"]

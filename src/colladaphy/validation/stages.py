@@ -7,8 +7,8 @@ from dataclasses import replace
 from colladaphy.document import Document
 from colladaphy.errors import InputError, XmlError
 from colladaphy.findings import Report
-from colladaphy.schema import gate
-from colladaphy.schema_numerals import incomplete_numbers
+from colladaphy.gate import gate
+from colladaphy.gate.numerals import incomplete_numbers
 from colladaphy.source import Limits, Parsed, Source, load, parse_loaded
 from colladaphy.source import rules as source_rules
 from colladaphy.source.places import locate

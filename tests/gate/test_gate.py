@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from colladaphy.findings import Finding
-from colladaphy.schema import gate, is_valid_text, schema_folder
+from colladaphy.gate import gate, is_valid_text, schema_folder
 from colladaphy.source import COLLADA_1_5, parse
 
 ASSET = (
@@ -216,23 +216,23 @@ def test_very_many_siblings_are_validated_in_blocks_with_the_same_result(
 ) -> None:
     tree = parse(wide("<mass>x</mass>" + SHAPE, "<mass>1</mass>" + SHAPE, 5000, every)).tree
     whole = gate(tree)
-    monkeypatch.setattr("colladaphy.schema.wide_parents", lambda _: [])
+    monkeypatch.setattr("colladaphy.gate.faults.wide_parents", lambda _: [])
     assert gate(tree) == whole
     assert len(whole) == 5000 // every + 3  # and the last body, which lacks all
 
 
 def test_a_flood_of_errors_takes_time_in_proportion(monkeypatch: pytest.MonkeyPatch) -> None:
     """No run of the validator sees more siblings than a block has."""
-    import colladaphy.schema as schema
+    from colladaphy.gate import faults
 
     seen: list[int] = []
-    validate = schema._validate
+    validate = faults._validate
 
     def watched(tree: object) -> object:
         seen.append(len(tree.getroot()[1][0]))  # type: ignore[index,attr-defined]
         return validate(tree)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(schema, "_validate", watched)
+    monkeypatch.setattr(faults, "_validate", watched)
     tree = parse(wide("<mass>x</mass>" + SHAPE, SHAPE, 20_000, 1)).tree
     assert len(gate(tree)) == 20_003
     assert max(seen) < 5000

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from colladaphy import schema_rules as rules
 from colladaphy.findings import Rule
+from colladaphy.gate import rules
 
 __all__ = ["Violation", "translate"]
 

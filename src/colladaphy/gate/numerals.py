@@ -13,7 +13,7 @@ from dataclasses import replace
 from lxml import etree
 
 from colladaphy.findings import Finding
-from colladaphy.schema import gate
+from colladaphy.gate.faults import gate
 
 __all__ = ["incomplete_numbers"]
 
