@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import logging
+from os import PathLike
+from typing import TYPE_CHECKING, BinaryIO
 
-from colladaphy.conform import conform
+from lxml import etree
+
 from colladaphy.document.document import Document
-from colladaphy.document.writing import Output, document_bytes, write_world
+from colladaphy.document.values import bad_numbers
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report, Severity
 from colladaphy.gate import gate
-from colladaphy.links.resource import Resource
-from colladaphy.mapper import WriteOptions
-from colladaphy.source import Limits, Parsed, Source, parse
-from colladaphy.world import World
+from colladaphy.source import Limits, Parsed, Source, packed_for, parse, save
 
-__all__ = ["document_bytes", "document_of", "read", "write"]
+if TYPE_CHECKING:
+    from colladaphy.mapper import WriteOptions
+    from colladaphy.world import World
 
-_log = logging.getLogger("colladaphy.document")
+__all__ = ["document_bytes", "read", "write"]
+
+_log = logging.getLogger(__name__)
+
+Output = str | PathLike[str] | BinaryIO
 
 
 def read(
@@ -35,23 +41,18 @@ def read(
     SchemaError with all findings.
     """
     parsed = parse(source, limits or Limits(), mend=repair)
-    return document_of(parsed, repair=repair, convention=convention)
+    return document_of(parsed, repair=repair, convention=convention, family={})
 
 
-def document_of(parsed: Parsed, *, repair: bool, convention: str = "auto") -> Document:
-    """The Document of a parsed file; see `read`."""
-    resource = _resource(parsed, repair=repair, convention=convention, family={})
-    return Document(resource, archive=parsed.archive, member=parsed.member)
-
-
-def _resource(
-    parsed: Parsed, *, repair: bool, convention: str, family: dict[str, Resource]
-) -> Resource:
-    """One document of a family, whose members are opened when references lead there."""
-    report = Report(parsed.file)
-    report.extend(parsed.findings)
+def document_of(
+    parsed: Parsed, *, repair: bool, convention: str, family: dict[str, Document]
+) -> Document:
+    """The Document of a parsed file; see `read`. `family` are the documents open already."""
+    report = Report(parsed.file, list(parsed.findings))
     tree = parsed.tree
     if repair:
+        from colladaphy.conform import conform
+
         tree, changes = conform(tree, file=parsed.file, convention=convention)
         report.extend(changes)
     faults = gate(tree, fresh=not repair)
@@ -60,14 +61,20 @@ def _resource(
     if any(fault.severity is Severity.ERROR for fault in faults):
         raise SchemaError(report.findings)
 
-    def opener(file: str) -> Resource:
+    def opener(file: str) -> Document:
         other = parsed.parse_relative(file)
-        return _resource(other, repair=repair, convention=convention, family=family)
+        return document_of(other, repair=repair, convention=convention, family=family)
 
-    resource = Resource(tree, file=parsed.file, report=report, opener=opener, family=family,
-                        tolerant=repair)  # fmt: skip
-    resource.member = parsed.member
-    return resource
+    return Document(
+        tree,
+        file=parsed.file,
+        report=report,
+        opener=opener,
+        family=family,
+        tolerant=repair,
+        archive=parsed.archive,
+        member=parsed.member,
+    )
 
 
 def write(
@@ -80,6 +87,20 @@ def write(
     or OutputError.
     """
     if isinstance(content, Document):
-        content.write(target)
+        data = packed_for(target, document_bytes(content), content.archive, content.member)
     else:
-        write_world(content, target, options)
+        from colladaphy.mapper import store
+
+        data = packed_for(target, store(content, options))
+    save(data, target)
+    _log.info("wrote %d bytes to %s", len(data), target)
+
+
+def document_bytes(document: Document) -> bytes:
+    """The document as UTF-8, checked again as it now is."""
+    tree = document.tree
+    data = etree.tostring(tree, encoding="UTF-8", xml_declaration=True)
+    faults = gate(tree) or bad_numbers(tree, data=data)
+    if faults:
+        raise SchemaError(faults)
+    return data
