@@ -18,7 +18,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.names import Names, NotPlain, word_view
+from colladaphy.columns.names import Names, NotPlain, word_view, words_at
 
 __all__ = ["BLOCK", "Index", "NotPlain"]
 
@@ -217,16 +217,9 @@ def _name_ends(part: Array, start: Array) -> Array:
     todo = np.arange(len(start))
     view = word_view(part)
     shift = 0
-    limit = len(view)
     while len(todo):
         at = start[todo] + shift
-        if int(at.max()) >= limit:
-            for place in todo[at >= limit].tolist():
-                ends[place] = _first_blank(part, int(start[place]))
-            todo, at = todo[at < limit], at[at < limit]
-            if not len(todo):
-                break
-        word = view[at]
+        word = words_at(view, at)
         # The top bits of bytes that are blanks or below; the lowest one set is exact.
         low = (word - _BEYOND_BLANK) & ~word & _TOPS
         hit = np.flatnonzero(low)
@@ -261,8 +254,3 @@ def _quotes(part: Array, places: Array, left: Array, quotes: Array) -> Array:
     if not np.all(part[opens - 1] == _EQUALS) or np.any(_BLANKS[part[opens - 2]]):
         raise NotPlain("blanks around an equals sign")
     return np.asarray(found)
-
-
-def _first_blank(part: Array, start: int) -> int:
-    text = bytes(part[start:])
-    return start + min(place for place in map(text.find, (b" ", b"\t", b"\n", b"\r")) if place >= 0)

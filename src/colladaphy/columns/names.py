@@ -7,7 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["LOW", "Names", "NotPlain", "word_view"]
+__all__ = ["LOW", "Names", "NotPlain", "word_view", "words_at"]
 
 Array = NDArray[Any]
 U = np.uint64
@@ -21,8 +21,21 @@ class NotPlain(ValueError):  # noqa: N818
 
 
 def word_view(data: Array) -> Array:
-    """The eight bytes (little-endian) that begin at every place of some bytes."""
-    return np.ndarray((max(len(data) - 7, 0),), "<u8", data, 0, (1,))
+    """The eight bytes (little-endian) that begin at the places of some bytes but the last seven."""
+    if len(data) < 8:
+        data = np.concatenate([data, np.zeros(8, np.uint8)])
+    return np.ndarray((len(data) - 7,), "<u8", data, 0, (1,))
+
+
+def words_at(view: Array, places: Array) -> Array:
+    """The eight bytes that begin at places; zeros behind the end of all."""
+    limit = len(view) - 1
+    if not len(places) or int(places.max()) <= limit:
+        return np.asarray(view[places])
+    inside = np.minimum(places, limit)
+    beyond = np.minimum(places - inside, 8).astype(U) << U(3)
+    # A shift by a whole word does nothing, so that it is done in two halves.
+    return np.asarray((view[inside] >> (beyond >> U(1))) >> (beyond - (beyond >> U(1))))
 
 
 class Names:
@@ -53,10 +66,8 @@ class Names:
         """The codes (n,) of names that stand at `start` in the bytes of a block."""
         if not len(start):
             return np.zeros(0, np.int16)
-        if int(start[-1]) + 8 > len(part):
-            part = np.concatenate([part, np.zeros(8, np.uint8)])
         view = word_view(part)
-        first = view[start]
+        first = words_at(view, start)
         first &= LOW[np.minimum(length, 8)]
         last = np.zeros(len(start), U)
         long = np.flatnonzero(length > 8)

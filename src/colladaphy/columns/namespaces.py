@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.columns.index import Index
-from colladaphy.columns.names import NotPlain, word_view
+from colladaphy.columns.names import NotPlain, word_view, words_at
 from colladaphy.columns.texts import Ranges
 
 __all__ = ["codes_by_name"]
@@ -109,9 +109,7 @@ def _attributes(index: Index) -> tuple[Ranges, Ranges, Array]:
             break
         start[more] += 1
     view = word_view(data)
-    same = np.zeros(len(start), np.bool_)
-    fits = start < len(view)
-    same[fits] = (view[start[fits]] & np.uint64(_FIVE)) == np.uint64(_XMLNS)
+    same = (words_at(view, start) & np.uint64(_FIVE)) == np.uint64(_XMLNS)
     after = data[start + 5]
     same &= (after == _COLON) | (after == _EQUALS)
     places, start = candidates[same], start[same]

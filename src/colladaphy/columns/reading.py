@@ -10,7 +10,7 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from colladaphy.columns.index import BLOCK, Index, NotPlain
-from colladaphy.columns.names import LOW, word_view
+from colladaphy.columns.names import LOW, word_view, words_at
 from colladaphy.columns.namespaces import codes_by_name
 from colladaphy.columns.places import Place, Places
 from colladaphy.columns.plain import Tree, plain, serialised
@@ -374,6 +374,5 @@ class Document:
         for place in range(0, len(key), 8):
             part = key[place : place + 8]
             word = U(int.from_bytes(part, "little"))
-            at = np.minimum(start + place, len(view) - 1)
-            same &= (view[at] & LOW[len(part)]) == word
+            same &= (words_at(view, start + place) & LOW[len(part)]) == word
         return same

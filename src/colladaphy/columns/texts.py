@@ -10,11 +10,13 @@ from __future__ import annotations
 
 import re
 import struct
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 import orjson
 from numpy.typing import NDArray
+
+from colladaphy.columns.names import LOW, word_view, words_at
 
 __all__ = [
     "Ranges",
@@ -29,7 +31,6 @@ __all__ = [
 Array = NDArray[Any]
 U = np.uint64
 
-_LOW: Final = np.array([(1 << (8 * k)) - 1 for k in range(8)] + [2**64 - 1], dtype=U)
 _WIDEST = 96
 """Bytes of a text up to which a row of words for each is not wasteful."""
 _PART = 1 << 13
@@ -78,27 +79,18 @@ class Ranges:
         if longest > _WIDEST and longest * len(lengths) > 4 * int(lengths.sum()) + 4096:
             return None
         count = (longest + extra + 7) // 8
-        view = np.ndarray((max(len(self.data) - 7, 0),), "<u8", self.data, 0, (1,))
+        view = word_view(self.data)
         words = np.zeros((len(lengths), count), U)
         starts = self.starts.astype(np.intp)
         if not len(starts) or not longest:
             return words, lengths
-        # A word may reach over the end of the bytes; there are blanks or an end tag, so not often.
-        last = len(view) - 1
-        if last < 0 or int(starts.max()) + longest > last:
-            return self._slow_words(words), lengths
         shortest = int(lengths.min())
         for place in range(0, longest, 8):
-            word = view[starts + place] if place else view[starts]
+            word = words_at(view, starts + place if place else starts)
             if shortest < place + 8:
-                word = word & _LOW[np.clip(lengths - place, 0, 8)]
+                word &= LOW[np.clip(lengths - place, 0, 8)]
             words[:, place >> 3] = word
         return words, lengths
-
-    def _slow_words(self, words: Array) -> Array:
-        size = words.shape[1] * 8
-        joined = b"".join(text.ljust(size, b"\0") for text in self.texts())
-        return np.frombuffer(joined, "<u8").reshape(words.shape).copy()
 
     def joined(self, separator: int) -> bytes:
         """All texts, each followed by a separator; bytes of zero in them are left out."""
