@@ -51,6 +51,38 @@ def test_models_within_themselves() -> None:
     assert len(read(etree.tostring(root)).load().bodies) == 1
 
 
+def test_a_ring_of_models_is_cut_where_it_closes_seen_from_the_scene() -> None:
+    """The scene instances the second model of the file, which holds the first."""
+    body = '<rigid_body sid="x"><technique_common>' + BOX + "</technique_common></rigid_body>"
+    more = '<instance_physics_model url="#entry" sid="back"/>'
+    tree = physics(BOX, more=more)
+    entry = etree.fromstring(
+        f'<x xmlns="{C[1:-1]}"><physics_model id="entry">{body}<instance_physics_model url="#pm" '
+        'sid="inner"><instance_rigid_body body="b1" target="#n1"><technique_common/>'
+        "</instance_rigid_body></instance_physics_model></physics_model></x>"
+    )[0]
+    tree.getroot().find(f".//{C}library_physics_models").append(entry)
+    tree.getroot().find(f".//{C}physics_scene/{C}instance_physics_model").set("url", "#entry")
+    user = tree.getroot().find(f".//{C}physics_scene//{C}instance_rigid_body")
+    user.set("body", "x")
+    root, findings = mended(tree)
+    assert codes(findings) == {"repair-cycle"}
+    assert 'sid="back"' in kept(root)
+    assert root.find(f".//{C}physics_model[@id='entry']/{C}instance_physics_model") is not None
+
+
+def test_a_ring_of_nodes_is_cut_where_it_closes_seen_from_the_scene() -> None:
+    tree = physics(BOX, nodes='<node id="n1"><instance_node url="#b"/></node>')
+    nodes = etree.fromstring(
+        f'<library_nodes xmlns="{C[1:-1]}"><node id="a"><instance_node url="#b" sid="back"/></node>'
+        '<node id="b"><instance_node url="#a" sid="down"/></node></library_nodes>'
+    )
+    tree.getroot().insert(1, nodes)
+    root, findings = mended(tree)
+    assert codes(findings) == {"repair-cycle"}
+    assert 'sid="back"' in kept(root)
+
+
 def test_a_long_chain_needs_no_deep_stack() -> None:
     chain = "".join(
         f'<node id="n{i}"><instance_node url="#n{i + 1}"/></node>' for i in range(1, 5000)

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import io
+
+import collada as pycollada
 import pytest
+from lxml import etree
 from tests.conform.documents import (
     BOX,
     MESH,
@@ -41,13 +45,15 @@ def constraint(ref: str, att: str) -> str:
         ("pm0/b1", "pm/b1"),
         ("#body1", "pm/b1"),
         ("Body 1", "pm/b1"),
-        ("#n1", "#n1"),
-        ("n1", "#n1"),
+        ("#n1", "pm/b1"),  # the body that it moves
+        ("n1", "pm/b1"),
+        ("#n9", "#n9"),
         ("", ""),
     ],
 )
 def test_attachments_have_one_form(written: str, standard: str) -> None:
-    root, findings = mended(physics(bodies=BODIES, more=constraint(written, "pm/b2")))
+    nodes = '<node id="n1"/><node id="n2"/><node id="n9"/>'
+    root, findings = mended(physics(bodies=BODIES, more=constraint(written, "pm/b2"), nodes=nodes))
     attachment = next(root.iter(C + "ref_attachment"))
     assert attachment.get("rigid_body") == standard
     assert codes(findings) == (set() if written == standard else {"repair-attachment-reference"})
@@ -248,3 +254,126 @@ def test_sids_and_ids_in_foreign_content_are_its_own() -> None:
     root, findings = mended(tree)
     assert [e.get("sid") for e in root.iter("{urn:f}*")] == ["s", "s"]
     assert findings == []
+
+
+@pytest.mark.parametrize(
+    ("ends", "meant"),
+    [
+        (("b1", "#n2"), ("pm/b1", "pm/b2")),
+        (("b1", "#n1"), ("pm/b1", "#n1")),  # beside its own body, a node is a place of the world
+        (("#n2", "b1"), ("pm/b2", "pm/b1")),
+        (("#n2", "#n2"), ("pm/b2", "#n2")),
+        (("#n1", "#n2"), ("pm/b1", "pm/b2")),
+    ],
+)
+def test_a_node_in_an_attachment_is_the_body_that_moves_it(
+    ends: tuple[str, str], meant: tuple[str, str]
+) -> None:
+    instances = "".join(
+        f'<instance_rigid_body body="b{i}" target="#n{i}"><technique_common/></instance_rigid_body>'
+        for i in (1, 2)
+    )
+    tree = physics(bodies=BODIES, more=constraint(*ends), instances=instances)
+    root, _ = mended(tree)
+    found = [next(root.iter(C + name)) for name in ("ref_attachment", "attachment")]
+    assert tuple(end.get("rigid_body") for end in found) == meant
+
+
+def test_a_node_that_moves_several_bodies_is_none_of_them() -> None:
+    instances = "".join(
+        f'<instance_rigid_body body="b{i}" target="#n1"><technique_common/></instance_rigid_body>'
+        for i in (1, 2)
+    )
+    root, findings = mended(physics(bodies=BODIES, more=constraint("", "#n1"), instances=instances))
+    assert next(root.iter(C + "attachment")).get("rigid_body") == "#n1"
+    assert findings == []
+
+
+ESCAPES = [
+    ("#My%2EModel-1", "My.Model-1", "#My.Model-1"),
+    ("#My%20Model", "My Model", "#My_Model"),
+    ("#m%C3%B6del", "m\u00f6del", "#m\u00f6del"),
+    ("#%70m", "pm", "#pm"),
+]
+
+
+@pytest.mark.parametrize(("written", "name", "meant"), ESCAPES)
+def test_escapes_in_references_are_understood(written: str, name: str, meant: str) -> None:
+    tree = physics(BOX)
+    tree.getroot().find(f".//{C}physics_model").set("id", name)
+    tree.getroot().find(f".//{C}instance_physics_model").set("url", written)
+    root, findings = mended(tree)
+    assert root.find(f".//{C}instance_physics_model").get("url") == meant
+    assert root.find(f".//{C}physics_model").get("id") == meant[1:]
+    assert "repair-escaped-reference" in codes(findings)
+    assert root.find(f".//{C}instance_rigid_body") is not None
+
+
+def test_escapes_are_understood_in_targets_bodies_attachments_and_inputs() -> None:
+    bodies = BODIES.replace('sid="b1"', 'sid="Left Wheel"')
+    mesh = MESH.format("g").replace('source="#g-p"', 'source="#%67-p"')
+    tree = physics(
+        bodies=bodies,
+        more=constraint("", "pm/Left%20Wheel"),
+        instances='<instance_rigid_body body="Left%20Wheel" target="#my%20node"><technique_common/>'
+        "</instance_rigid_body>",
+        nodes='<node id="my node"><translate>2 0 0</translate></node>',
+    )
+    library = document(f'<library_geometries><geometry id="g"><mesh>{mesh}</mesh></geometry>'
+                       "</library_geometries>").getroot()[1]  # fmt: skip
+    tree.getroot().insert(1, library)
+    root, _ = mended(tree)
+    user = root.find(f".//{C}instance_rigid_body")
+    assert (user.get("body"), user.get("target")) == ("Left_Wheel", "#my_node")
+    assert root.find(f".//{C}attachment").get("rigid_body") == "pm/Left_Wheel"
+    assert root.find(f".//{C}vertices/{C}input").get("source") == "#g-p"
+    assert root.find(f"{C}library_nodes") is None
+
+
+@pytest.mark.parametrize("url", ["other%20file.dae#pm", "#100%25"])
+def test_other_escapes_stay(url: str) -> None:
+    tree = physics(BOX, more=f'<instance_physics_model url="{url}"/>')
+    _, findings = mended(tree)
+    assert "repair-escaped-reference" not in codes(findings)
+
+
+def test_inputs_by_a_path_mean_the_vertices_of_their_geometry() -> None:
+    """OpenRAVE gives all vertices the same id."""
+    meshes = "".join(
+        f'<geometry id="geom{i}"><mesh>'
+        + MESH.format(f"g{i}")
+        .replace(f'id="g{i}-v"', 'id="vertices"')
+        .replace(f'source="#g{i}-v"', f'source="#geom{i}/vertices"')
+        + "</mesh></geometry>"
+        for i in range(3)
+    )
+    root, findings = mended(document(f"<library_geometries>{meshes}</library_geometries>"))
+    for geometry in root.iter(C + "geometry"):
+        vertices = geometry.find(f".//{C}vertices").get("id")
+        assert geometry.find(f".//{C}triangles/{C}input").get("source") == f"#{vertices}"
+    assert len({vertices.get("id") for vertices in root.iter(C + "vertices")}) == 3
+    assert codes(findings) == {"repair-duplicate-id", "repair-input-path"}
+    mesh = pycollada.Collada(io.BytesIO(etree.tostring(root).replace(b"2008/03", b"2005/11")))
+    assert [len(geometry.primitives[0]) for geometry in mesh.geometries] == [4, 4, 4]
+    assert mesh.errors == []
+
+
+def test_the_suffix_that_an_instance_gives_its_ids_is_understood() -> None:
+    extra = '<extra type="idsuffix" name=".visual1"/>'
+    nodes = (
+        f'<node id="top"><instance_node url="#v1">{extra}</instance_node></node><node id="v1">'
+        '<node id="v1.node0"><translate>1 2 3</translate></node></node>'
+    )
+    user = '<instance_rigid_body body="b1" target="#v1.node0.visual1"><technique_common/>'
+    root, findings = mended(physics(BOX, nodes=nodes, instances=user + "</instance_rigid_body>"))
+    assert root.find(f".//{C}instance_rigid_body").get("target") == "#v1.node0"
+    assert "repair-suffixed-reference" in codes(findings)
+    assert root.find(f"{C}library_nodes") is None
+
+
+def test_a_suffix_may_lead_to_the_file_that_is_instanced() -> None:
+    extra = '<extra type="idsuffix" name=".visual1"/>'
+    nodes = f'<node id="top"><instance_node url="arm.dae#v1">{extra}</instance_node></node>'
+    user = '<instance_rigid_body body="b1" target="#v1.node0.visual1"><technique_common/>'
+    root, _ = mended(physics(BOX, nodes=nodes, instances=user + "</instance_rigid_body>"))
+    assert root.find(f".//{C}instance_rigid_body").get("target") == "arm.dae#v1.node0"

@@ -23,7 +23,10 @@ def break_cycles(context: Context) -> None:
 
 
 def _closing(context: Context, kind: str) -> list[etree._Element]:
-    """The instances that close a circle, found by one walk along all of them."""
+    """The instances that close a circle, found by one walk along all of them.
+
+    The walk begins where the scene does, so that what is reached from there is whole.
+    """
     targets: dict[etree._Element, etree._Element] = {}
     for instance in context.all(f"instance_{kind}"):
         url = instance.get("url", "")
@@ -36,7 +39,8 @@ def _closing(context: Context, kind: str) -> list[etree._Element]:
     }
     closing: dict[etree._Element, None] = {}
     done: set[etree._Element] = set()
-    for start in inside:
+    first = [target for target in _from_outside(targets, kind) if target in inside]
+    for start in dict.fromkeys([*first, *inside]):
         waiting = [] if start in done else [start]
         open_ = set[etree._Element]()
         while waiting:
@@ -57,3 +61,17 @@ def _closing(context: Context, kind: str) -> list[etree._Element]:
                 open_.discard(current)
                 done.add(current)
     return list(closing)
+
+
+def _from_outside(targets: dict[etree._Element, etree._Element], kind: str) -> list[etree._Element]:
+    """What is instanced from outside of all such elements, or stands where the scene shows it."""
+    found = []
+    for instance, target in targets.items():
+        if next(instance.iterancestors(NS + kind), None) is None:
+            found.append(target)
+        else:
+            *_, top = instance.iterancestors(NS + kind)
+            holder = top.getparent()
+            if holder is not None and local(holder) == "visual_scene":
+                found.append(top)
+    return found

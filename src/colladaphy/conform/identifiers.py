@@ -35,6 +35,7 @@ _ARRAYS = (
 
 def mend_ids(context: Context) -> None:
     """Make every id an NCName that occurs once, and rewrite what refers to it."""
+    by_path = _inputs_by_path(context)
     taken: dict[str, list[etree._Element]] = {}
     for element in standard_elements_with(context.root, "id"):
         taken.setdefault(element.get("id", ""), []).append(element)
@@ -46,6 +47,38 @@ def mend_ids(context: Context) -> None:
     if changed:
         _rewrite(context.root, changed)
         context.forget_ids()
+    for user, meant in by_path:
+        old, new = user.get("source"), f"#{meant.get('id')}"
+        user.set("source", new)
+        message = f"the input {user.get('semantic')} named {old}, a path; is now {new}"
+        context.note(rules.INPUT_PATH, user, message)
+
+
+def _inputs_by_path(context: Context) -> list[tuple[etree._Element, etree._Element]]:
+    """Inputs that name what they mean by a path below an id, and the elements with that id there.
+
+    OpenRAVE gives the vertices of every mesh one id, and tells them apart by their geometry.
+    """
+    found: list[tuple[etree._Element, etree._Element]] = []
+    if not context.wants(rules.INPUT_PATH):
+        return found
+    below: dict[str, dict[str, etree._Element]] = {}
+    for user in context.all("input"):
+        head, slash, last = user.get("source", "").removeprefix("#").partition("/")
+        outer = context.ids.get(head) if slash else None
+        if outer is None:
+            continue
+        if head not in below:
+            inner = [e for e in outer.iterdescendants(etree.Element) if e is not outer]
+            below[head] = {}
+            for key in ("id", "sid", "name"):
+                for element in inner:
+                    if value := element.get(key):
+                        below[head].setdefault(value, element)
+        meant = below[head].get(last.rpartition("/")[2])
+        if meant is not None and local(meant) in ("source", "vertices") and meant.get("id"):
+            found.append((user, meant))
+    return found
 
 
 def _mend_id(

@@ -22,8 +22,10 @@ from colladaphy.conform.commas import mend_commas
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import translate
 from colladaphy.conform.conventions.units import free_limits, still_springs
+from colladaphy.conform.counts import mend_counts
 from colladaphy.conform.cycles import break_cycles
 from colladaphy.conform.dangling import set_aside_dangling
+from colladaphy.conform.escapes import mend_escapes, mend_suffixes
 from colladaphy.conform.identifiers import mend_ids, mend_sids
 from colladaphy.conform.normalise import drop_foreign_types, normalise
 from colladaphy.conform.numerals import may_lack_digits
@@ -45,6 +47,7 @@ _UPGRADE: tuple[_Step, ...] = (
 )
 # Names come first: what follows refers to them, and libxml2 remembers ids it has once seen.
 _NAMES: tuple[_Step, ...] = (mend_ids, mend_sids)
+_SPELLING: tuple[_Step, ...] = (mend_escapes, mend_suffixes)
 # Only an invalid document needs these.
 _FORM: tuple[_Step, ...] = (
     structure.correct_names,
@@ -68,6 +71,7 @@ _REFERENCES: tuple[_Step, ...] = (
     scenes.mend_scenes,
     scenes.complete_scene,
     targets.mend_inputs,
+    mend_counts,
     targets.mend_parents,
     targets.mend_targets,
     break_cycles,
@@ -123,7 +127,7 @@ def conform(
 
 
 def _run(context: Context, twin: etree._ElementTree, version: str, convention: str) -> None:
-    steps = [*(_UPGRADE if version.startswith("1.4") else ()), *_NAMES]
+    steps = [*_SPELLING, *(_UPGRADE if version.startswith("1.4") else ()), *_NAMES]
     for step in steps:
         step(context)
     data = etree.tostring(twin)

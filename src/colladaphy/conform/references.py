@@ -16,6 +16,8 @@ from colladaphy.gate.references import EXPECTED
 __all__ = ["complete_instances", "mend_attachments", "mend_instances", "mend_urls"]
 
 _NCNAME = re.compile(r"[^\W\d][\w.\-]*")
+_USER = NS + "instance_rigid_body"
+_ATTACHMENTS = ("ref_attachment", "attachment")
 _URLS = ("url", "convex_hull_of", "parent", "source", "target")
 # One search each: a union is sorted, which takes longer than all the rest.
 _BARE = [etree.XPath(f"//@{name}[not(starts-with(., '#'))]", smart_strings=False) for name in _URLS]
@@ -62,11 +64,25 @@ class _Index:
     def __init__(self, context: Context) -> None:
         self.context = context
         self._known: dict[tuple[etree._Element, str], _Members] = {}
+        self._targets: dict[etree._Element | None, dict[str, set[str]]] | None = None
 
     def of(self, model: etree._Element, kind: str) -> _Members:
         if (model, kind) not in self._known:
             self._known[model, kind] = _Members(model, kind)
         return self._known[model, kind]
+
+    def moved_by(self, model: etree._Element, url: str) -> str | None:
+        """The sid of the body of a model that moves a node; None unless it is just one."""
+        if self._targets is None:
+            self._targets = {}
+            for instance in self.context.all("instance_physics_model"):
+                moved = self.context.by_url(instance.get("url"))
+                for user in () if moved is None else instance.iterchildren(_USER):
+                    sid = user.get("body", "").rpartition("/")[2]
+                    targets = self._targets.setdefault(moved, {})
+                    targets.setdefault(user.get("target", ""), set()).add(sid)
+        sids = self._targets.get(model, {}).get(url, set())
+        return next(iter(sids)) if len(sids) == 1 else None
 
 
 def mend_urls(context: Context) -> None:
@@ -176,20 +192,33 @@ def mend_instances(context: Context) -> None:
 
 
 def mend_attachments(context: Context) -> None:
-    """Attachments name their body as ``model-id/sid``, a node as ``#id``, the world as ``""``."""
+    """Attachments name their body as ``model-id/sid``, a node as ``#id``, the world as ``""``.
+
+    A node that a body of the model moves means that body, unless the other end is the body itself:
+    then it is a place of the world.
+    """
     index = _Index(context)
-    for name in ("ref_attachment", "attachment"):
-        for attachment in context.all(name):
-            value = attachment.get("rigid_body")
-            constraint = attachment.getparent()
-            model = None if constraint is None else constraint.getparent()
-            if not value or model is None or local(model) != "physics_model":
+    for constraint in context.all("rigid_constraint"):
+        model = constraint.getparent()
+        if model is None or local(model) != "physics_model":
+            continue
+        ends = [e for name in _ATTACHMENTS if (e := constraint.find(NS + name)) is not None]
+        found = [_address(context, index, model, end.get("rigid_body") or "") for end in ends]
+        for number, (new, _) in enumerate(found):
+            sid = index.moved_by(model, new) if new and new.startswith("#") else None
+            address = None if sid is None else f"{_id_of(context, model)}/{sid}"
+            if address is not None and all(other != address for other, _ in found):
+                found[number] = (address, "the node that it moves")
+        for end, (new, form) in zip(ends, found, strict=True):
+            value = end.get("rigid_body")
+            if not value or new is None or new == value:
                 continue
-            new, form = _address(context, index, model, value)
-            if new is not None and new != value and context.wants(rules.ATTACHMENT_REFERENCE):
-                attachment.set("rigid_body", new)
-                message = f"rigid_body={value!r} of <{name}> was read as {form}; is now {new!r}"
-                context.note(rules.ATTACHMENT_REFERENCE, attachment, message)
+            if context.wants(rules.ATTACHMENT_REFERENCE):
+                end.set("rigid_body", new)
+                message = (
+                    f"rigid_body={value!r} of <{local(end)}> was read as {form}; is now {new!r}"
+                )
+                context.note(rules.ATTACHMENT_REFERENCE, end, message)
 
 
 def _address(

@@ -326,6 +326,30 @@ INPUT_ARRAY = Rule(
     "an input named an array instead of what holds it",
     "inputs refer to sources and vertices",
 )
+INPUT_PATH = Rule(
+    "repair-input-path",
+    _INFO,
+    "an input named what it means by a path",
+    "inputs refer to sources and vertices by their ids",
+)
+COUNT = Rule(
+    "repair-count",
+    _WARNING,
+    "a count was not that of the values",
+    "an array counts its values, an accessor the rows that it makes of them",
+)
+ESCAPED = Rule(
+    "repair-escaped-reference",
+    _INFO,
+    "a reference held percent-escapes",
+    "ids and sids are compared without",
+)
+SUFFIXED = Rule(
+    "repair-suffixed-reference",
+    _INFO,
+    "a reference had the suffix that an instance gives to the ids of what it instances",
+    "refer to the element itself",
+)
 # Images and effects.
 EFFECT_IMAGE = Rule(
     "upgrade-effect-image",
