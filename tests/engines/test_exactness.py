@@ -148,7 +148,7 @@ def test_indices_that_lead_out_of_bounds_are_refused(scene: str) -> None:
     """MuJoCo follows them unchecked, and a file can hold anything."""
     from colladaphy.engines.mujoco_engine import memory
 
-    engine = create_engine("mujoco")
+    engine = create_engine("mujoco", sleep=True)
     simulation = Simulation(SCENES[scene](), engine)
     simulation.run(1500)
     assert simulation.world.sleeping.any()

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.engines.plane import Frame
 from colladaphy.world import Kind, rotations
 
 if TYPE_CHECKING:
-    from colladaphy.engines.planar import Frame
     from colladaphy.world import Body, World
 
 __all__ = ["Disc", "HalfPlane", "Outline", "Polygon", "Stadium", "outlines"]

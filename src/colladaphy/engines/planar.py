@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.engines.outlines import HalfPlane, Outline, outlines
+from colladaphy.engines.plane import Frame, along
 from colladaphy.engines.rules import MASS, MOVING_PLANE, NOT_PLANAR, SIZE
 from colladaphy.findings import Finding, Rule
 from colladaphy.world import Body, Kind, rotations
@@ -16,7 +17,7 @@ from colladaphy.world import Body, Kind, rotations
 if TYPE_CHECKING:
     from colladaphy.world import World
 
-__all__ = ["LARGEST", "SMALLEST", "TOLERANCE", "Frame", "Planarity", "analyse"]
+__all__ = ["LARGEST", "SMALLEST", "TOLERANCE", "Planarity", "analyse"]
 
 Floats = NDArray[np.float64]
 
@@ -27,45 +28,6 @@ SMALLEST, LARGEST = 1e-50, 1e50
 """Sizes and masses that the arithmetic of an engine can be trusted with."""
 
 _MOST = 10  # bodies named for one reason; the rest are counted
-
-
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """A plane in space: all points x with normal·x = offset, seen along u and v."""
-
-    normal: Floats
-    u: Floats
-    v: Floats
-    offset: float
-
-    @classmethod
-    def across(cls, normal: Floats, offset: float = 0.0) -> Frame:
-        """The frame of a unit normal; u × v = normal."""
-        # The axis after the normal's largest, in cyclic order: coordinate planes stay exact.
-        first = np.zeros(3)
-        first[(int(np.argmax(np.abs(normal))) + 1) % 3] = 1.0
-        u = first - normal * float(_along(first, normal))
-        u = u / np.sqrt(float(_along(u, u)))
-        return cls(normal, u, np.cross(normal, u), offset)
-
-    def flat(self, vectors: Floats) -> Floats:
-        """Coordinates (..., 2) of vectors (..., 3) along u and v."""
-        return np.stack([_along(vectors, self.u), _along(vectors, self.v)], axis=-1)
-
-    def height(self, vectors: Floats) -> Floats:
-        """Component (...) of vectors (..., 3) along the normal."""
-        return _along(vectors, self.normal)
-
-    def lift(self, flat: Floats, height: Floats | float = 0.0) -> Floats:
-        """Vectors (..., 3) of coordinates (..., 2) and a component along the normal."""
-        up = np.asarray(height)[..., None] * self.normal
-        return np.asarray(up + flat[..., :1] * self.u + flat[..., 1:] * self.v)
-
-
-def _along(vectors: Floats, axis: Floats) -> Floats:
-    # Term by term: the same bits however the array lies in memory.
-    x, y, z = (vectors[..., i] * axis[i] for i in range(3))
-    return np.asarray(x + y + z)
 
 
 @dataclass(slots=True)
@@ -165,16 +127,16 @@ class _State:
 
     def offset(self, normal: Floats) -> float:
         """Where most centres are along `normal`, that of one of the bodies."""
-        heights = np.sort(_along(self.positions, normal))
+        heights = np.sort(along(self.positions, normal))
         return float(heights[len(heights) // 2])
 
     def reasons(self, normal: Floats) -> list[tuple[str, NDArray[Any]]]:
         """What speaks against a plane: a text, and the places of the bodies that it is true of."""
-        heights = _along(self.positions, normal) - self.offset(normal)
+        heights = along(self.positions, normal) - self.offset(normal)
         weighed = np.einsum("nij,j->ni", self.inertias, normal)
-        tilt = weighed - _along(weighed, normal)[:, None] * normal
+        tilt = weighed - along(weighed, normal)[:, None] * normal
         everything = np.arange(len(self.moving))
-        pulled = abs(float(_along(self.gravity, normal))) > TOLERANCE * _largest(self.gravity)
+        pulled = abs(float(along(self.gravity, normal))) > TOLERANCE * _largest(self.gravity)
         checks = [
             ("Gravity points out of the plane for", everything[: len(everything) * pulled]),
             ("The centre lies out of the plane", _above(heights, self.size)),
@@ -202,11 +164,11 @@ def _above(heights: Floats, size: float) -> NDArray[Any]:
 
 
 def _leaving(vectors: Floats, normal: Floats) -> NDArray[Any]:
-    return np.flatnonzero(np.abs(_along(vectors, normal)) > TOLERANCE * _largest(vectors))
+    return np.flatnonzero(np.abs(along(vectors, normal)) > TOLERANCE * _largest(vectors))
 
 
 def _turning(vectors: Floats, normal: Floats) -> NDArray[Any]:
-    flat = vectors - _along(vectors, normal)[:, None] * normal
+    flat = vectors - along(vectors, normal)[:, None] * normal
     return np.flatnonzero(np.abs(flat).max(axis=1, initial=0.0) > TOLERANCE * _largest(vectors))
 
 

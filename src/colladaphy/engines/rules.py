@@ -36,7 +36,7 @@ NOT_INSTALLED = Rule(
 DIVERGED = Rule(
     "engine-diverged",
     Severity.ERROR,
-    "The simulation has diverged: a pose or velocity is not a finite number any more.",
+    "The simulation has diverged: a pose or velocity is not finite, or beyond all measure.",
     "Take a smaller time step, or softer springs; the last checkpoint is good.",
 )
 SEED_UNUSED = Rule(
@@ -44,13 +44,6 @@ SEED_UNUSED = Rule(
     Severity.INFO,
     "The engine draws no random numbers: the run is the same for every seed.",
     "Leave the seed out.",
-)
-RESTITUTION = Rule(
-    "engine-restitution",
-    Severity.WARNING,
-    "The engine knows no coefficient of restitution; contacts of these materials don't bounce.",
-    "Run planar scenes with pymunk, which follows the coefficient.",
-    "thesis 4.4",
 )
 FRICTIONS = Rule(
     "engine-frictions",
@@ -107,6 +100,31 @@ SIZE = Rule(
     "A dimension or mass is too small or too large for the engine.",
     "Scale the scene to other units.",
 )
+OPTION = Rule(
+    "engine-option",
+    Severity.ERROR,
+    "The engine has no such option, or the option no such value.",
+    "The engines' options are in docs/engines.md.",
+)
+SETTINGS = Rule(
+    "engine-settings",
+    Severity.INFO,
+    "What the engine computes with.",
+    "Give other options to the engine; docs/engines.md says what they do.",
+)
+STILL_VELOCITY = Rule(
+    "engine-still-velocity",
+    Severity.WARNING,
+    "A body that cannot move has a velocity, which the engine does not use.",
+    "Let the body move, or take its velocity away.",
+)
+MATERIAL_UNUSED = Rule(
+    "engine-material-unused",
+    Severity.INFO,
+    "The engine does not use all values of the materials.",
+    "Contacts are rigid: they follow restitution and friction alone.",
+    "thesis 4.4",
+)
 JOINT_LIMITS = Rule(
     "engine-joint-limits",
     Severity.ERROR,
@@ -127,6 +145,28 @@ JOINT_DISPLACED = Rule(
     "The two bodies of a joint are not where the joint holds them.",
     "The engine puts them there before the first step; check the frames of the joint.",
     "COLLADA 1.5 §rigid_constraint",
+)
+JOINT_OUTSIDE = Rule(
+    "engine-joint-outside",
+    Severity.WARNING,
+    "The two bodies of a joint start outside of its limits.",
+    "The engine pushes them back with some force; check the limits and the poses.",
+    "COLLADA 1.5 §rigid_constraint",
+)
+JOINT_VELOCITY = Rule(
+    "engine-joint-velocity",
+    Severity.WARNING,
+    "The velocities of the two bodies of a joint contradict it.",
+    "The engine changes them to the nearest ones that fit, by impulses in the joints: momentum "
+    "and angular momentum are kept, energy is lost as in an impact.",
+    "thesis 2.2",
+)
+JOINT_OVERLAP = Rule(
+    "engine-joint-overlap",
+    Severity.WARNING,
+    "Two bodies of a joint overlap and collide: contact and joint work against each other.",
+    "Let them interpenetrate (interpenetrate=True), or place them apart.",
+    "COLLADA 1.5 §interpenetrate",
 )
 JOINT_LOOP = Rule(
     "engine-joint-loop",
@@ -156,13 +196,6 @@ LIBRARY = Rule(
     Severity.ERROR,
     "The library under the engine refuses the scene.",
 )
-FRICTION_SHARED = Rule(
-    "engine-friction-shared",
-    Severity.WARNING,
-    "Too many pairs of shapes have a friction of their own; the larger of the two materials' "
-    "own frictions is taken.",
-    "Use fewer materials, or the same friction for all.",
-)
 STATE_ENGINE = Rule(
     "engine-state-engine",
     Severity.WARNING,
@@ -175,6 +208,25 @@ STATE_VERSION = Rule(
     "The checkpoint was made by another version of the engine: the run goes on from poses and "
     "velocities.",
     "Install the same version to go on exactly.",
+)
+STATE_OPTIONS = Rule(
+    "engine-state-options",
+    Severity.WARNING,
+    "The checkpoint was made with other options of the engine: the run goes on from poses and "
+    "velocities.",
+    "Resume with the same options to go on exactly.",
+)
+STATE_NO_ENGINE = Rule(
+    "engine-state-no-engine",
+    Severity.ERROR,
+    "The engine that wrote the checkpoint is not there.",
+    "Hand over that engine to go on exactly, or name another one to go on from the World.",
+)
+OVERTAKEN = Rule(
+    "engine-edit",
+    Severity.ERROR,
+    "What was changed in the World cannot be taken up while the engine runs.",
+    "Make such changes between two runs.",
 )
 STATE_STALE = Rule(
     "engine-state-stale",
@@ -226,7 +278,6 @@ RULES = (
     NOT_INSTALLED,
     DIVERGED,
     SEED_UNUSED,
-    RESTITUTION,
     FRICTIONS,
     MASS,
     INERTIA_TRIANGLE,
@@ -236,17 +287,26 @@ RULES = (
     PLANE_FINITE,
     MOVING_PLANE,
     SIZE,
+    OPTION,
+    SETTINGS,
+    STILL_VELOCITY,
+    MATERIAL_UNUSED,
     JOINT_LIMITS,
     JOINT_APPROXIMATED,
     JOINT_DISPLACED,
+    JOINT_OUTSIDE,
+    JOINT_VELOCITY,
+    JOINT_OVERLAP,
     JOINT_LOOP,
     JOINT_INERT,
     CHOSEN,
     NO_ENGINE,
     LIBRARY,
-    FRICTION_SHARED,
     STATE_ENGINE,
     STATE_VERSION,
+    STATE_OPTIONS,
+    STATE_NO_ENGINE,
+    OVERTAKEN,
     STATE_STALE,
     STATE_BROKEN,
     CHECKPOINT_BROKEN,

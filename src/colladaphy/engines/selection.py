@@ -10,6 +10,7 @@ from colladaphy.errors import EngineError
 from colladaphy.findings import Finding, Severity
 
 if TYPE_CHECKING:
+    from colladaphy.engines.options import Value
     from colladaphy.engines.protocol import Engine
     from colladaphy.world import World
 
@@ -22,14 +23,17 @@ ENGINES: Final = {
 """Engines by name, in the order in which "auto" tries them: module and class."""
 
 
-def create_engine(name: str) -> Engine:
-    """The engine of a name; EngineError if there is none, or if its library is not installed."""
+def create_engine(name: str, **options: Value) -> Engine:
+    """The engine of a name; EngineError if there is none, or if its library is not installed.
+
+    Its `options` are in docs/engines.md; numbers and switches may be texts.
+    """
     if name not in ENGINES:
         known = ", ".join(("auto", *ENGINES))
         raise refuse(UNKNOWN, f"There is no engine named {name!r}; there are {known}.")
     module, cls = ENGINES[name]
     try:
-        engine: Engine = getattr(import_module(module), cls)()
+        engine: Engine = getattr(import_module(module), cls)(**options)
     except ImportError as error:
         extra = "colladaphy" if name == "pymunk" else f"colladaphy[{name}]"
         hint = f"Install it: pip install '{extra}'."

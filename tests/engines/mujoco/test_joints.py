@@ -11,9 +11,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from colladaphy.engines import Simulation, create_engine
-from colladaphy.engines.mujoco_engine.axes import misfit
+from colladaphy.engines.frames import ORIGIN, Pose
+from colladaphy.engines.jointed import misfit
 from colladaphy.engines.mujoco_engine.forest import plan
-from colladaphy.engines.mujoco_engine.frames import ORIGIN, Pose
 from colladaphy.engines.mujoco_engine.refusals import check
 from colladaphy.errors import EngineError
 from colladaphy.world import FREE, Body, World, rotations

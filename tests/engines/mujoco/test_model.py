@@ -166,27 +166,14 @@ def test_friction_is_that_of_the_pair(override: float | None, expected: float) -
     world.create_plane(1, (0, 0, 1), 0, "a")
     body = world.create_box(2, (0, 0, 0.25), (2, 2, 0.5), "b", linear_velocity=(3.0, 0, 0))
     assert slide(world, body.sid) == pytest.approx(expected * 9.81, rel=0.05, abs=0.01)
-    assert "engine-friction-shared" not in codes(world)
 
 
-def test_frictions_that_differ_and_restitution_are_named() -> None:
+def test_frictions_that_differ_are_named() -> None:
     world = table()
     world.create_sphere(2, (0, 0, 1), 0.5, "oak")
-    world.set_pair("granite", "oak", restitution=0.0, static_friction=0.5)
+    world.set_pair("granite", "oak", static_friction=0.5)
     found = {finding.code: finding.message for finding in check(world)}
     assert "granite on oak" in found["engine-frictions"]
-    assert "engine-restitution" not in found
-    world.set_pair("granite", "oak", restitution=0.7)
-    assert "granite on oak (0.7)" in {f.code: f.message for f in check(world)}["engine-restitution"]
-
-
-def test_too_many_pairs_of_friction_share(monkeypatch: pytest.MonkeyPatch) -> None:
-    from colladaphy.engines.mujoco_engine import friction
-
-    monkeypatch.setattr(friction, "_MOST_PAIRS", 0)
-    world = SCENES["general"]()
-    assert "engine-friction-shared" in codes(world)
-    Simulation(world, "mujoco").run(1)
 
 
 @pytest.mark.parametrize(

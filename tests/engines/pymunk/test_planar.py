@@ -11,7 +11,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from colladaphy.engines.planar import Frame, analyse
+from colladaphy.engines.planar import analyse
+from colladaphy.engines.plane import Frame
 from colladaphy.engines.pymunk_engine import PymunkEngine
 from colladaphy.errors import EngineError
 from colladaphy.findings import Severity

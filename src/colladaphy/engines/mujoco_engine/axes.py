@@ -12,14 +12,15 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.engines.mujoco_engine.frames import Pose
+from colladaphy.engines.frames import Pose
+from colladaphy.engines.jointed import angles_of, relative
 from colladaphy.world import rotations
 
 if TYPE_CHECKING:
     from colladaphy.engines.mujoco_engine.forest import Link
     from colladaphy.world import Joint
 
-__all__ = ["Freedom", "Hanging", "coordinates", "hang", "misfit", "relative"]
+__all__ = ["Freedom", "Hanging", "coordinates", "hang"]
 
 Floats = NDArray[np.float64]
 _UNITS = np.eye(3)
@@ -95,16 +96,10 @@ def _after(turns: list[Floats], axis: Floats, *, back: bool = False) -> Floats:
     return axis
 
 
-def relative(joint: Joint, one: Pose, two: Pose) -> tuple[Floats, Floats]:
-    """Shift (3,) and turn (4,) of frame 2 in frame 1, the bodies being at `one` and `two`."""
-    pose = (one @ Pose.of(*joint.frame1)).inverse() @ (two @ Pose.of(*joint.frame2))
-    return pose.position, pose.orientation
-
-
 def coordinates(joint: Joint, link: Link, hanging: Hanging, one: Pose, two: Pose) -> list[float]:
     """The coordinates of the freedoms of `hanging` that come closest to the poses."""
     shift, turn = relative(joint, one, two)
-    angles = _angles(joint, turn)
+    angles = angles_of(joint, turn)
     values: list[float] = []
     for freedom in hanging.freedoms:
         if freedom.kind == "slide":
@@ -122,40 +117,3 @@ def _ball(joint: Joint, link: Link, turn: Floats) -> Floats:
     own = rotations.normalize(frame[1])
     turned = rotations.conjugate(turn) if link.reverse else turn
     return np.concatenate([turned[:1], rotations.rotate(own, turned[1:])])
-
-
-def _angles(joint: Joint, turn: Floats) -> Floats:
-    """Turns (3,) about x, the new y, the new z; within the limits where a full turn helps."""
-    low, high = joint.angular_min, joint.angular_max
-    moving = np.flatnonzero(low != high)
-    angles = np.zeros(3)
-    if len(moving) == 1 and not np.any(np.where(low == high, low, 0.0)):
-        i = int(moving[0])
-        angles[i] = 2.0 * np.arctan2(turn[1 + i], turn[0])
-    else:
-        m = rotations.to_matrix(turn)
-        angles[0] = np.arctan2(-m[1, 2], m[2, 2])
-        angles[1] = np.arctan2(m[0, 2], np.hypot(m[1, 2], m[2, 2]))
-        angles[2] = np.arctan2(-m[0, 1], m[0, 0])
-    full = 2.0 * np.pi
-    for i in moving.tolist():
-        angle = float(np.remainder(angles[i] + np.pi, full) - np.pi)
-        candidates = (angle, angle + full, angle - full)
-        angles[i] = next((a for a in candidates if low[i] <= a <= high[i]), angle)
-    return angles
-
-
-def misfit(joint: Joint, one: Pose, two: Pose) -> tuple[float, float]:
-    """How far (length, radians) the bodies are from where the locked axes hold them."""
-    shift, turn = relative(joint, one, two)
-    low, high = joint.linear_min, joint.linear_max
-    off = float(np.linalg.norm(np.where(low == high, shift - low, 0.0)))
-    low, high = joint.angular_min, joint.angular_max
-    if np.all(low != high):
-        return off, 0.0
-    angles = np.where(low == high, low, _angles(joint, turn))
-    nearest = np.array(rotations.IDENTITY)
-    for i in range(3):
-        nearest = rotations.multiply(nearest, rotations.from_axis_angle(_UNITS[i], angles[i]))
-    apart = rotations.multiply(rotations.conjugate(nearest), turn)
-    return off, float(rotations.to_axis_angle(apart)[1])

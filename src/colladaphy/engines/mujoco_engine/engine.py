@@ -9,11 +9,16 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
+from colladaphy.engines.bounds import Bounds
 from colladaphy.engines.clock import Clock
 from colladaphy.engines.digest import digest
 from colladaphy.engines.mujoco_engine import memory, refusals
+from colladaphy.engines.mujoco_engine.contacts import Touches
 from colladaphy.engines.mujoco_engine.model import Model, build
 from colladaphy.engines.mujoco_engine.motion import Motion
+from colladaphy.engines.mujoco_engine.settings import MujocoOptions, resolve
+from colladaphy.engines.mujoco_engine.stepping import Stepper
+from colladaphy.engines.options import Value
 from colladaphy.engines.protocol import Capabilities, Contact
 from colladaphy.engines.rules import DIVERGED, LIBRARY, refuse
 from colladaphy.engines.state import pack, unpack
@@ -32,25 +37,33 @@ _BAD = (_WARNINGS.mjWARN_BADQPOS, _WARNINGS.mjWARN_BADQVEL, _WARNINGS.mjWARN_BAD
 
 
 class MujocoEngine:
-    """Runs a World with MuJoCo."""
+    """Runs a World with MuJoCo; options are those of `MujocoOptions`."""
 
     name = "mujoco"
     capabilities = Capabilities(
         planar=False,
         kinds=frozenset(Kind),
         joints=frozenset(JointKind),
-        restitution=False,
+        restitution=True,
         two_frictions=False,
     )
 
-    def __init__(self) -> None:
+    def __init__(self, **options: Any) -> None:
+        self._options = MujocoOptions.of(options)
         self._key = ""
         self._model: Model | None = None
         self._motion: Motion | None = None
         self._data: Any = None
         self._clock = Clock(0.0, 0, 1.0)
+        self._stepper: Stepper | None = None
+        self._bounds = Bounds(np.inf, 0.0)
         self._pushed = False
         self._stepped = False
+
+    @property
+    def options(self) -> dict[str, Value]:
+        """The options that the engine was made with."""
+        return self._options.plain()
 
     @property
     def version(self) -> str:
@@ -59,7 +72,7 @@ class MujocoEngine:
 
     def check(self, world: World) -> list[Finding]:
         """See `Engine.check`."""
-        return refusals.check(world)
+        return refusals.check(world, self._options)
 
     def load(self, world: World, *, seed: int | None = None) -> None:
         """See `Engine.load`. The compiled model is kept while only the motion changes."""
@@ -67,17 +80,22 @@ class MujocoEngine:
         key = digest(world, motion=False)
         if key != self._key or self._model is None or self._motion is None:
             self._key = ""
-            errors = [f for f in refusals.check(world) if f.severity is Severity.ERROR]
+            errors = [f for f in self.check(world) if f.severity is Severity.ERROR]
             if errors:
                 raise EngineError(errors)
             with _quiet():
-                self._model = build(world)
-            self._motion = Motion(world, self._model)
+                chosen = resolve(self._options, world)
+                model = self._model = build(world, chosen)
+            self._motion = Motion(world, model)
+            self._stepper = Stepper(
+                model.compiled, model.surfaces, model.geom_rows, fourth=chosen.integrator == "rk4"
+            )
             self._key = key
         compiled = self._model.compiled
         self._data = mujoco.MjData(compiled)
         self._clock = clock
         self._stepped = False
+        self._bounds = Bounds.of(world, clock.time_step)
         own = unpack(world, self.name, self.version).data
         with _quiet():
             if own is None or not memory.recall(compiled, self._data, own):
@@ -101,14 +119,12 @@ class MujocoEngine:
         self._look_for_trouble()
 
     def _advance(self, count: int) -> None:
-        assert self._model is not None
-        if self._pushed:
-            mujoco.mj_step(self._model.compiled, self._data)
-            self._data.xfrc_applied[:] = 0.0
-            self._pushed = False
-            count -= 1
-        if count:
-            mujoco.mj_step(self._model.compiled, self._data, nstep=count)
+        assert self._stepper is not None
+        for _ in range(count):
+            self._stepper.step(self._data)
+            if self._pushed:
+                self._data.xfrc_applied[:] = 0.0
+                self._pushed = False
 
     def _look_for_trouble(self) -> None:
         warnings = self._data.warning
@@ -116,10 +132,12 @@ class MujocoEngine:
             message = f"MuJoCo ran out of memory for contacts by step {self._clock.step_count}."
             raise refuse(LIBRARY, message)
         bad = any(warnings[kind].number for kind in _BAD)
-        finite = np.all(np.isfinite(self._data.qpos)) and np.all(np.isfinite(self._data.qvel))
-        if bad or not finite:
+        if bad:
             message = f"The simulation has diverged by step {self._clock.step_count}."
             raise refuse(DIVERGED, message)
+        assert self._motion is not None
+        linear = self._motion.free_speeds(self._data)
+        self._bounds.check(linear, self._data.qpos, self._data.qvel, step=self._clock.step_count)
 
     def store(self, world: World) -> None:
         """See `Engine.store`."""
@@ -140,27 +158,9 @@ class MujocoEngine:
         """See `Engine.contacts`."""
         if not self._stepped or self._model is None:
             return []
-        data, sids = self._data, self._model.geom_sids
-        found: list[Contact] = []
-        force = np.zeros(6)
-        for index in range(data.ncon):
-            contact = data.contact[index]
-            first, second = (int(sids[geom]) for geom in contact.geom)
-            normal = np.array(contact.frame[:3])
-            if first > second:
-                first, second, normal = second, first, -normal
-            mujoco.mj_contactForce(self._model.compiled, data, index, force)
-            found.append(
-                Contact(
-                    first,
-                    second,
-                    tuple(contact.pos.tolist()),
-                    tuple(normal.tolist()),
-                    float(contact.dist),
-                    float(force[0]) * self._clock.time_step,
-                )
-            )
-        return sorted(found, key=lambda contact: (contact.first, contact.second))
+        assert self._stepper is not None
+        touches = self._stepper.touches or Touches.of(self._data)
+        return touches.listed(self._model.geom_sids, self._clock.time_step)
 
 
 @contextmanager

@@ -13,26 +13,26 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.engines.frames import ORIGIN, Pose
 from colladaphy.engines.mujoco_engine.axes import Freedom, Hanging, hang
+from colladaphy.engines.mujoco_engine.contacts import Surfaces
 from colladaphy.engines.mujoco_engine.forest import Forest, plan
-from colladaphy.engines.mujoco_engine.frames import ORIGIN, Pose
-from colladaphy.engines.mujoco_engine.friction import Geom, surfaces
 from colladaphy.engines.mujoco_engine.inertia import principal
 from colladaphy.engines.mujoco_engine.loops import close
+from colladaphy.engines.mujoco_engine.settings import Chosen
 from colladaphy.engines.mujoco_engine.shapes import Shapes, shapes_of
 from colladaphy.engines.rules import LIBRARY, refuse
+from colladaphy.engines.surfaces import used_materials
 
 if TYPE_CHECKING:
     from colladaphy.world import Joint, World
 
-__all__ = ["Model", "build", "count_materials"]
+__all__ = ["Model", "build"]
 
 Floats = NDArray[np.float64]
 
 _SLEEP = 0.05  # of the velocity that gravity gives in one step
-_SLEEP_MOST = 1e-3
 _HARD = 2.0  # steps: the least that MuJoCo is stable with
-_SOFT = 6.0  # steps: harder contacts are pushed off what they slide on
 # MuJoCo's own guess grows with the square of the number of bodies.
 _MEMORY = 32 << 20
 _MEMORY_PER_SHAPE = 128 << 10
@@ -51,30 +51,38 @@ class Model:
     """MuJoCo's body ids by system id, of top-level bodies that move."""
     geom_sids: NDArray[np.int64]
     """System id of the top-level body of each geom."""
+    surfaces: Surfaces
+    geom_rows: NDArray[np.int64]
+    """Row in the table of `surfaces` of each geom."""
 
 
-def build(world: World) -> Model:
+def build(world: World, chosen: Chosen) -> Model:
     """Compile `world`, which `refusals.check` finds no error in; EngineError if that fails."""
     spec = mujoco.MjSpec()
-    _set_options(spec, world)
+    _set_options(spec, world, chosen)
     forest = plan(world)
     joints = {joint.sid: joint for joint in world.joints}
-    builder = _Builder(world, spec, forest, joints)
+    used = used_materials(world)[0].tolist()
+    surfaces = Surfaces.of(world, used, chosen.friction, twice=chosen.solver == "newton")
+    builder = _Builder(world, spec, forest, joints, surfaces, chosen.impedance)
     builder.add_fixed()
     for sid in forest.order:
         builder.add_moving(sid)
     for number in forest.loops:
         close(spec, joints[number], builder.bodies, _solref(world, _HARD))
-    builder.add_contacts()
+    builder.add_exclusions()
     spec.memory = _MEMORY + _MEMORY_PER_SHAPE * len(builder.geoms)
     try:
         compiled = spec.compile()
     except (ValueError, mujoco.FatalError) as error:
         raise refuse(LIBRARY, f"MuJoCo refuses the scene: {error}") from error
-    numbers = {sid: compiled.body(f"body{sid}").id for sid in forest.order}
-    names = builder.geom_sids
-    sids = [names[compiled.geom(i).name] for i in range(compiled.ngeom)]
-    return Model(compiled, forest, builder.hangings, numbers, np.array(sids, dtype=np.int64))
+    numbers = {sid: int(builder.bodies[sid].id) for sid in forest.order}
+    owners = np.zeros(compiled.ngeom, dtype=np.int64)
+    materials = np.zeros(compiled.ngeom, dtype=np.int64)
+    for geom, sid, material in builder.geoms:
+        owners[geom.id], materials[geom.id] = sid, material
+    rows = surfaces.table.places(materials)
+    return Model(compiled, forest, builder.hangings, numbers, owners, surfaces, rows)
 
 
 def _solref(world: World, steps: float) -> list[float]:
@@ -82,19 +90,23 @@ def _solref(world: World, steps: float) -> list[float]:
     return [steps * float(world.time_step or 0.0), 1.0]
 
 
-def _set_options(spec: Any, world: World) -> None:
+def _set_options(spec: Any, world: World, chosen: Chosen) -> None:
     spec.compiler.degree = False
     spec.compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
     spec.compiler.alignfree = False
     option = spec.option
     option.timestep = world.time_step
     option.gravity = world.gravity
-    option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    first_order = "implicitfast" if chosen.integrator == "rk4" else chosen.integrator
+    option.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{first_order.upper()}")
+    option.solver = getattr(mujoco.mjtSolver, f"mjSOL_{chosen.solver.upper()}")
+    option.iterations = chosen.iterations
     option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     option.impratio = 10.0  # harder friction: less creep on slopes
-    option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
-    gravity = float(np.abs(world.gravity).max())
-    option.sleep_tolerance = min(_SLEEP_MOST, _SLEEP * gravity * float(world.time_step or 0.0))
+    if chosen.sleep:
+        option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+        gravity = float(np.linalg.norm(world.gravity))
+        option.sleep_tolerance = _SLEEP * gravity * float(world.time_step or 0.0)
     # A run that diverges must fail, not start again; what joints bind may collide, unless they
     # say otherwise.
     option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
@@ -102,19 +114,26 @@ def _set_options(spec: Any, world: World) -> None:
 
 
 class _Builder:
-    def __init__(self, world: World, spec: Any, forest: Forest, joints: dict[int, Joint]) -> None:
+    def __init__(
+        self,
+        world: World,
+        spec: Any,
+        forest: Forest,
+        joints: dict[int, Joint],
+        surfaces: Surfaces,
+        impedance: float,
+    ) -> None:
         self.world = world
         self.spec = spec
         self.forest = forest
         self.joints = joints
         self.shapes = Shapes(spec, world)
-        self.surfaces = surfaces(world, count_materials(world))[0]
-        self.solref = _solref(world, _SOFT)
+        self.friction = dict(zip(surfaces.table.ids.tolist(), surfaces.own.tolist(), strict=True))
+        self.impedance = impedance
+        self.slippery = not surfaces.table.dynamic.any()
         self.bodies: dict[int, Any] = {0: spec.worldbody}
-        self.groups: dict[int, int] = {0: 0}
         self.hangings: dict[int, Hanging] = {}
-        self.geoms: list[Geom] = []
-        self.geom_sids: dict[str, int] = {}
+        self.geoms: list[tuple[Any, int, int]] = []  # with system id and material
         self.rows = {sid: row for row, sid in enumerate(world.sids.tolist())}
 
     def add_fixed(self) -> None:
@@ -124,7 +143,6 @@ class _Builder:
             sid = int(world.sids[row])
             pose = Pose.of(world.positions[row], world.orientations[row])
             body = self._add_body(sid, self.spec.worldbody, pose)
-            self.groups[sid] = 0
             self._add_geoms(body, sid)
 
     def add_moving(self, sid: int) -> None:
@@ -136,7 +154,6 @@ class _Builder:
             free.type = mujoco.mjtJoint.mjJNT_FREE
             free.name = f"free{sid}"
             free.align = mujoco.mjtAlignFree.mjALIGNFREE_FALSE
-            self.groups[sid] = sid
         else:
             joint = self.joints[link.joint]
             hanging = hang(joint, link)
@@ -144,7 +161,6 @@ class _Builder:
             body = self._add_body(sid, self.bodies[link.parent], hanging.zero)
             for number, freedom in enumerate(hanging.freedoms):
                 self._add_freedom(body, joint, hanging, freedom, f"joint{joint.sid}.{number}")
-            self.groups[sid] = sid if hanging.freedoms else self.groups[link.parent]
         row = self.rows[sid]
         body.mass = float(self.world.masses[row])
         body.ipos = np.zeros(3)
@@ -189,17 +205,14 @@ class _Builder:
 
     def _add_geoms(self, body: Any, sid: int) -> None:
         for shape in shapes_of(self.world, sid):
-            name = f"geom{len(self.geoms)}"
-            geom = self.shapes.add(body, shape, shape.pose, name)
-            friction = self.surfaces.own[shape.material]
-            geom.friction = [friction, 0.0, 0.0]
-            geom.condim = 3 if friction else 1
-            geom.solref = self.solref
-            self.geoms.append(Geom(name, sid, self.groups[sid], shape.material))
-            self.geom_sids[name] = sid
+            geom = self.shapes.add(body, shape, shape.pose)
+            geom.friction = [self.friction[shape.material], 0.0, 0.0]
+            geom.condim = 1 if self.slippery else 3
+            geom.solimp = [self.impedance, self.impedance, 1.0, 0.5, 1.0]
+            self.geoms.append((geom, sid, shape.material))
 
-    def add_contacts(self) -> None:
-        """Bodies that never collide, and the pairs that have a friction of their own."""
+    def add_exclusions(self) -> None:
+        """Bodies that joints let interpenetrate never collide."""
         apart: set[tuple[int, int]] = set()
         for joint in self.joints.values():
             if joint.enabled and joint.interpenetrate and joint.body1 and joint.body2:
@@ -208,29 +221,3 @@ class _Builder:
                     exclude = self.spec.add_exclude()
                     exclude.bodyname1, exclude.bodyname2 = f"body{one}", f"body{two}"
                 apart.add((one, two))
-        for a, b in self.surfaces.pairs(self.geoms, apart):
-            materials = (min(a.material, b.material), max(a.material, b.material))
-            friction = self.surfaces.special[materials]
-            pair = self.spec.add_pair()
-            pair.geomname1, pair.geomname2 = a.name, b.name
-            pair.friction = [friction, friction, 0.0, 0.0, 0.0]
-            pair.condim = 3 if friction else 1
-            pair.solref = self.solref
-
-
-def count_materials(world: World) -> dict[int, tuple[int, int]]:
-    """How many (moving, fixed) shapes there are of each material, by its id."""
-    counts: dict[int, tuple[int, int]] = {}
-
-    def add(ids: NDArray[np.int64], moving: NDArray[np.bool_]) -> None:
-        for id, moves in zip(ids.tolist(), moving.tolist(), strict=True):
-            if id >= 0:
-                before = counts.get(id, (0, 0))
-                counts[id] = (before[0] + moves, before[1] + (not moves))
-
-    add(world.material_ids, ~world.fixed)
-    members = world.member_columns
-    fixed = dict(zip(world.sids.tolist(), world.fixed.tolist(), strict=True))
-    roots = [fixed[world.root_of(sid)] for sid in members.sids.tolist()]
-    add(members.material_ids, ~np.array(roots, dtype=np.bool_))
-    return counts

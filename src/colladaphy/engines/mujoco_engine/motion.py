@@ -8,8 +8,8 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.engines.frames import ORIGIN, Pose
 from colladaphy.engines.mujoco_engine.axes import coordinates
-from colladaphy.engines.mujoco_engine.frames import ORIGIN, Pose
 from colladaphy.world import rotations
 
 if TYPE_CHECKING:
@@ -40,6 +40,9 @@ class Motion:
         self._free_rows = np.array([rows[sid] for sid in free], dtype=np.int64)
         self._hanging_rows = np.array([rows[sid] for sid in self._hanging], dtype=np.int64)
         self._hanging_ids = np.array([model.bodies[sid] for sid in self._hanging], dtype=np.int64)
+        roots = np.unique(np.asarray(compiled.body_rootid)[self._hanging_ids])
+        in_tree = np.isin(np.asarray(compiled.body_rootid), roots)
+        self._jointed_dofs = np.flatnonzero(in_tree[np.asarray(compiled.dof_bodyid)])
         free_ids = np.array([model.bodies[sid] for sid in free], dtype=np.int64)
         joints = np.asarray(compiled.body_jntadr)[free_ids]
         positions = np.asarray(compiled.jnt_qposadr)[joints]
@@ -79,34 +82,59 @@ class Motion:
         self._put_speeds(world, data)
 
     def _put_speeds(self, world: World, data: Any) -> None:
-        """Speeds of the joints that come closest to the velocities of the bodies."""
-        compiled, forest = self._model.compiled, self._model.forest
-        moves: dict[int, tuple[Floats, Floats]] = {}
-        still = (np.zeros(3), np.zeros(3))
-        rows = {sid: row for row, sid in enumerate(world.sids.tolist())}
-        for sid in forest.order:
-            row, id = rows[sid], self._model.bodies[sid]
-            linear, angular = world.linear_velocities[row], world.angular_velocities[row]
-            link = forest.links.get(sid)
-            if link is None:
-                moves[sid] = np.array(linear), np.array(angular)
-                continue
-            base_linear, base_angular = moves.get(link.parent, still)
-            parent = int(compiled.body_parentid[id])
-            arm = data.xpos[id] - data.xpos[parent]
-            base_linear = base_linear + np.cross(base_angular, arm)
-            count = int(compiled.body_dofnum[id])
-            if count:
-                first = int(compiled.body_dofadr[id])
-                axes = np.array(data.cdof[first : first + count])
-                center = data.subtree_com[compiled.body_rootid[id]]
-                axes[:, 3:] += np.cross(axes[:, :3], data.xpos[id] - center)
-                wanted = np.concatenate([angular - base_angular, linear - base_linear])
-                speeds = np.linalg.lstsq(axes.T, wanted, rcond=None)[0]
-                data.qvel[first : first + count] = speeds
-                got = speeds @ axes
-                base_angular, base_linear = base_angular + got[:3], base_linear + got[3:]
-            moves[sid] = base_linear, base_angular
+        """The speeds that joints allow with the momentum that the bodies have.
+
+        They minimise the kinetic energy of the difference: what impulses in the joints do. The
+        momentum along each freedom, of all that it moves, is kept; MuJoCo's mass matrix makes
+        speeds of it.
+        """
+        compiled = self._model.compiled
+        rows, ids = self.rows, self.ids
+        spin = world.angular_velocities[rows]
+        inertias = rotations.rotate_tensor(world.orientations[rows], world.inertias[rows])
+        turn = np.einsum("nij,nj->ni", inertias, spin)
+        push = world.masses[rows, None] * world.linear_velocities[rows]
+        arms = data.xpos[ids] - data.subtree_com[np.asarray(compiled.body_rootid)[ids]]
+        moments = np.zeros((compiled.nbody, 6))
+        moments[ids, :3] = turn + np.cross(arms, push)
+        moments[ids, 3:] = push
+        parents = compiled.body_parentid
+        for sid in reversed(self._hanging):
+            id = self._model.bodies[sid]
+            moments[parents[id]] += moments[id]
+        carried = moments[np.asarray(compiled.dof_bodyid)]
+        along = np.einsum("di,di->d", np.asarray(data.cdof), carried)[None]
+        mujoco.mj_crb(compiled, data)
+        mujoco.mj_factorM(compiled, data)
+        speeds = np.zeros_like(along)
+        mujoco.mj_solveM(compiled, data, speeds, along)
+        hung = self._jointed_dofs
+        data.qvel[hung] = speeds[0, hung]
+        if compiled.neq:
+            self._close_loops(data)
+
+    def _close_loops(self, data: Any) -> None:
+        """Take out of the speeds what the constraints that close loops do not allow."""
+        compiled = self._model.compiled
+        mujoco.mj_fwdPosition(compiled, data)
+        count = data.ne
+        rows = np.zeros((count, compiled.nv))
+        if mujoco.mj_isSparse(compiled):
+            for row in range(count):
+                start, length = data.efc_J_rowadr[row], data.efc_J_rownnz[row]
+                columns = data.efc_J_colind[start : start + length]
+                rows[row, columns] = data.efc_J[start : start + length]
+        else:
+            rows[:] = np.asarray(data.efc_J).reshape(-1, compiled.nv)[:count]
+        answers = np.zeros_like(rows)
+        mujoco.mj_solveM(compiled, data, answers, rows)
+        wrong = rows @ data.qvel
+        impulses = np.linalg.lstsq(rows @ answers.T, wrong, rcond=1e-12)[0]
+        data.qvel[:] -= answers.T @ impulses
+
+    def free_speeds(self, data: Any) -> Floats:
+        """Linear velocities (n, 3) of the bodies that hang on nothing."""
+        return np.asarray(data.qvel[self._linear])
 
     def take(self, world: World, data: Any) -> None:
         """Write positions and velocities of `data` into the World."""

@@ -7,20 +7,16 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colladaphy.engines.mujoco_engine.axes import misfit
+from colladaphy.engines.jointed import crossed, fastest, joint_findings
 from colladaphy.engines.mujoco_engine.forest import plan
-from colladaphy.engines.mujoco_engine.frames import ORIGIN, Pose
-from colladaphy.engines.mujoco_engine.friction import surface_findings
 from colladaphy.engines.mujoco_engine.inertia import SLACK
 from colladaphy.engines.mujoco_engine.loops import can_close
-from colladaphy.engines.mujoco_engine.model import count_materials
+from colladaphy.engines.mujoco_engine.settings import MujocoOptions, resolve
 from colladaphy.engines.mujoco_engine.shapes import is_convex, is_round, shapes_of
 from colladaphy.engines.rules import (
     INERTIA_TRIANGLE,
     JOINT_APPROXIMATED,
-    JOINT_DISPLACED,
     JOINT_INERT,
-    JOINT_LIMITS,
     JOINT_LOOP,
     MASS,
     MESH_HULL,
@@ -28,6 +24,7 @@ from colladaphy.engines.rules import (
     SHAPE_APPROXIMATED,
     SIZE,
 )
+from colladaphy.engines.unused import unused
 from colladaphy.world import Kind
 
 if TYPE_CHECKING:
@@ -39,15 +36,15 @@ __all__ = ["check"]
 _LEAST = 1e-15  # mjMINVAL
 _MOST = 1e10  # mjMAXVAL
 _MOST_MASS = 1e20
-_NEAR = 1e-6
 
 
-def check(world: World) -> list[Finding]:
+def check(world: World, options: MujocoOptions | None = None) -> list[Finding]:
     """All findings about running `world`; those of severity error are refusals."""
+    options = options or MujocoOptions()
     with np.errstate(all="ignore"):
         findings = [*_gravity(world), *_bodies(world), *_shapes(world), *_joints(world)]
-    findings += surface_findings(world, count_materials(world))
-    return findings
+        findings += unused(world, options.friction)
+    return [*resolve(options, world).describe(), *findings]
 
 
 def _gravity(world: World) -> Iterator[Finding]:
@@ -108,16 +105,15 @@ def _shapes(world: World) -> Iterator[Finding]:
 def _joints(world: World) -> Iterator[Finding]:
     forest = plan(world)
     loops, inert = set(forest.loops), set(forest.inert)
+    speeds = fastest(world)
     for joint in world.joints:
         if not joint.enabled:
             continue
         if joint.sid in inert:
             yield JOINT_INERT.at(message=f"{joint!r} binds what cannot move.")
             continue
-        if np.any(joint.linear_min > joint.linear_max) or np.any(
-            joint.angular_min > joint.angular_max
-        ):
-            yield JOINT_LIMITS.at(message=f"{joint!r} has a lower limit above the upper one.")
+        yield from joint_findings(joint, speeds, closing=joint.sid in loops)
+        if crossed(joint):
             continue
         if joint.sid in loops:
             if can_close(joint):
@@ -128,8 +124,6 @@ def _joints(world: World) -> Iterator[Finding]:
             else:
                 yield JOINT_LOOP.at(message=f"{joint!r} closes a loop.")
         yield from _approximations(joint)
-        if joint.sid not in loops:
-            yield from _displacement(joint)
 
 
 def _approximations(joint: Joint) -> Iterator[Finding]:
@@ -148,18 +142,3 @@ def _approximations(joint: Joint) -> Iterator[Finding]:
             if what == "angular" and axes.all() and not limited.any():
                 message = f"{joint!r}: the target of its angular spring is taken for zero."
             yield JOINT_APPROXIMATED.at(message=message)
-
-
-def _displacement(joint: Joint) -> Iterator[Finding]:
-    one, two = (
-        ORIGIN if body is None else Pose.of(body.position, body.orientation)
-        for body in (joint.body1, joint.body2)
-    )
-    off, angle = misfit(joint, one, two)
-    reach = max(
-        float(np.abs(vector).max())
-        for vector in (one.position, two.position, joint.frame1[0], joint.frame2[0])
-    )
-    if off > _NEAR * (1.0 + reach) or angle > _NEAR:
-        message = f"{joint!r}: its frames are {off:g} and {angle:g} rad apart."
-        yield JOINT_DISPLACED.at(message=message)

@@ -10,7 +10,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.engines.mujoco_engine.frames import ORIGIN, Pose
+from colladaphy.engines.frames import ORIGIN, Pose
 from colladaphy.world import Kind, rotations
 
 if TYPE_CHECKING:
@@ -36,6 +36,7 @@ class Shape:
     dimensions: Row
     material: int
     mesh: int
+    hollow: bool
 
 
 def shapes_of(world: World, sid: int) -> Iterator[Shape]:
@@ -58,6 +59,7 @@ def _shapes(world: World, sid: int, pose: Pose, *, top: bool) -> Iterator[Shape]
         np.array(table.raw("dimensions")[row]),
         int(table.raw("material_ids")[row]),
         int(table.raw("mesh_ids")[row]),
+        bool(table.raw("hollow")[row]),
     )
 
 
@@ -97,10 +99,9 @@ class Shapes:
         self._world = world
         self._meshes: set[str] = set()
 
-    def add(self, body: Any, shape: Shape, pose: Pose, name: str) -> Any:
+    def add(self, body: Any, shape: Shape, pose: Pose) -> Any:
         """A geom of `shape` at `pose` in a body of the specification."""
         geom = body.add_geom()
-        geom.name = name
         geom.mass = 0.0
         orientation = pose.orientation
         x, y, z, length = shape.dimensions.tolist()
@@ -115,10 +116,11 @@ class Shapes:
             geom.type, geom.size = types.mjGEOM_PLANE, [0.0, 0.0, 1.0]
         elif shape.kind is Kind.MESH:
             mesh = self._world.meshes[shape.mesh]
-            self._use(geom, f"mesh{shape.mesh}", mesh.body_vertices, mesh.faces)
+            key = f"hollow mesh{shape.mesh}" if shape.hollow else f"mesh{shape.mesh}"
+            self._use(geom, key, mesh.body_vertices_of(shape.hollow), mesh.faces)
         elif not is_round(shape):
             points = _rod(shape)
-            self._use(geom, "rod " + points.tobytes().hex()[:4096] + name, points, None)
+            self._use(geom, f"rod {shape.kind.name} {shape.dimensions.tolist()}", points, None)
         else:
             capsule = shape.kind is Kind.CAPSULE
             geom.type = types.mjGEOM_CAPSULE if capsule else types.mjGEOM_CYLINDER

@@ -10,7 +10,7 @@ import pymunk
 from colladaphy.engines.protocol import Contact
 
 if TYPE_CHECKING:
-    from colladaphy.engines.planar import Frame
+    from colladaphy.engines.plane import Frame
     from colladaphy.engines.pymunk_engine.space import Model
 
 __all__ = ["contacts_of"]

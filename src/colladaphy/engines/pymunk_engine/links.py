@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.engines.planar import LARGEST, TOLERANCE, Frame
+from colladaphy.engines.planar import LARGEST, TOLERANCE
+from colladaphy.engines.plane import Frame
 from colladaphy.engines.rules import JOINT_INERT, JOINT_LIMITS, NOT_PLANAR, SIZE
 from colladaphy.findings import Finding
 from colladaphy.world import rotations

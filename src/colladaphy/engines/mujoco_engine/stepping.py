@@ -1,0 +1,125 @@
+"""One step of MuJoCo's, taken apart so that contacts follow their materials and nothing drifts.
+
+Steps of first order (MuJoCo's semi-implicit Euler integrators) hold contacts and limits. With
+"rk4", whatever neither touches anything nor meets a limit in a step moves by the classical
+Runge-Kutta method of fourth order instead, tree by tree.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.engines.mujoco_engine.contacts import Surfaces, Touches
+
+__all__ = ["Stepper"]
+
+_SMOOTH = int(mujoco.mjtDisableBit.mjDSBL_CONTACT) | int(mujoco.mjtDisableBit.mjDSBL_LIMIT)
+_STATE = int(mujoco.mjtState.mjSTATE_PHYSICS) | int(mujoco.mjtState.mjSTATE_WARMSTART)
+
+
+class Stepper:
+    """Steps the data of one compiled model."""
+
+    def __init__(
+        self, compiled: Any, surfaces: Surfaces, geom_rows: NDArray[np.int64], *, fourth: bool
+    ) -> None:
+        self._compiled = compiled
+        self._surfaces = surfaces
+        self._geom_rows = geom_rows
+        self._fourth = fourth
+        self._group = _groups(compiled)
+        self._geom_trees = np.asarray(compiled.body_treeid)[np.asarray(compiled.geom_bodyid)]
+        joints = np.asarray(compiled.jnt_bodyid)
+        self._joint_trees = np.asarray(compiled.body_treeid)[joints]
+        self._dof_trees = np.asarray(compiled.dof_treeid)
+        ends = np.append(np.asarray(compiled.jnt_qposadr), compiled.nq)
+        self._position_trees = np.repeat(self._joint_trees, np.diff(ends))
+        self.touches: Touches | None = None
+        """The contacts of the last step, if MuJoCo's data do not hold them any more."""
+
+    def step(self, data: Any) -> None:
+        """Advance `data` by one time step."""
+        self.touches = None
+        if not self._fourth:
+            self._first_order(data)
+            return
+        before = _save(self._compiled, data)
+        mujoco.mj_step1(self._compiled, data)
+        bound = self._bound(data)
+        if not bound.any():
+            mujoco.mj_fwdActuation(self._compiled, data)
+            mujoco.mj_fwdAcceleration(self._compiled, data)
+            mujoco.mj_fwdConstraint(self._compiled, data)
+            self._smooth(data)
+            return
+        if data.ncon:
+            self._surfaces.aim(self._compiled, data, self._geom_rows)
+        mujoco.mj_step2(self._compiled, data)
+        if bound.all():
+            return
+        self.touches = Touches.of(data)
+        after = _save(self._compiled, data)
+        held = bound[self._position_trees], bound[self._dof_trees]
+        positions, speeds = data.qpos[held[0]], data.qvel[held[1]]
+        mujoco.mj_setState(self._compiled, data, before, _STATE)
+        self._smooth(data, anew=True)
+        free_positions, free_speeds = data.qpos[~held[0]], data.qvel[~held[1]]
+        mujoco.mj_setState(self._compiled, data, after, _STATE)
+        data.qpos[held[0]], data.qvel[held[1]] = positions, speeds
+        data.qpos[~held[0]], data.qvel[~held[1]] = free_positions, free_speeds
+
+    def _first_order(self, data: Any) -> None:
+        mujoco.mj_step1(self._compiled, data)
+        if data.ncon:
+            self._surfaces.aim(self._compiled, data, self._geom_rows)
+        mujoco.mj_step2(self._compiled, data)
+
+    def _smooth(self, data: Any, *, anew: bool = False) -> None:
+        """A step in which nothing touches; `anew` if `data` are not at its beginning."""
+        option = self._compiled.opt
+        flags = option.disableflags
+        option.disableflags = flags | _SMOOTH
+        try:
+            if anew:
+                mujoco.mj_forward(self._compiled, data)
+            mujoco.mj_RungeKutta(self._compiled, data, 4)
+        finally:
+            option.disableflags = flags
+
+    def _bound(self, data: Any) -> NDArray[np.bool_]:
+        """Which trees a contact or a limit holds, and those that loops bind to them."""
+        bound = np.zeros(self._compiled.ntree + 1, dtype=np.bool_)  # the last: not of any tree
+        if data.ncon:
+            bound[self._geom_trees[np.array(data.contact.geom)]] = True
+        if data.nl:
+            first = data.ne + data.nf
+            limits = data.efc_id[first : first + data.nl]
+            bound[self._joint_trees[limits]] = True
+        bound = bound[:-1]
+        if len(self._group) and bound.any():
+            groups = np.zeros(len(bound), dtype=np.bool_)
+            groups[self._group[bound]] = True
+            bound = groups[self._group]
+        return bound
+
+
+def _save(compiled: Any, data: Any) -> NDArray[np.float64]:
+    state = np.empty(mujoco.mj_stateSize(compiled, _STATE))
+    mujoco.mj_getState(compiled, data, state, _STATE)
+    return state
+
+
+def _groups(compiled: Any) -> NDArray[np.int64]:
+    """A number (trees,) for each tree, the same for those that loops of joints bind together."""
+    group = np.arange(compiled.ntree)
+    sites = np.asarray(compiled.site_bodyid)
+    for one, two in zip(compiled.eq_obj1id.tolist(), compiled.eq_obj2id.tolist(), strict=True):
+        first, second = np.asarray(compiled.body_treeid)[sites[[one, two]]].tolist()
+        if first >= 0 and second >= 0:
+            low, high = sorted((int(group[first]), int(group[second])))
+            group[group == high] = low
+    return group

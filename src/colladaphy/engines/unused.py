@@ -1,0 +1,51 @@
+"""What of a World no engine here uses, said once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from colladaphy.engines.rules import FRICTIONS, MATERIAL_UNUSED, STILL_VELOCITY
+from colladaphy.engines.surfaces import PairTable, used_materials
+
+if TYPE_CHECKING:
+    from colladaphy.findings import Finding
+    from colladaphy.world import World
+
+__all__ = ["unused"]
+
+_MOST = 5
+_SILENT = {
+    "young_modulus": "Young's modulus",
+    "poisson_ratio": "Poisson's ratio",
+    "stiffness": "the stiffness (but for the restitution of pairs)",
+    "damping_normal": "the normal damping",
+    "damping_tangential": "the tangential damping",
+}
+
+
+def unused(world: World, rule: str) -> Iterator[Finding]:
+    """Velocities of what is fixed, and values of materials; `rule` combines frictions."""
+    moves = np.any(world.linear_velocities != 0, axis=1) | np.any(
+        world.angular_velocities != 0, axis=1
+    )
+    still = np.flatnonzero(world.fixed & moves).tolist()
+    if still:
+        names = ", ".join(repr(world.bodies[row]) for row in still[:_MOST])
+        more = f" and {len(still) - _MOST} more bodies" if len(still) > _MOST else ""
+        yield STILL_VELOCITY.at(message=f"The engine takes no velocity of what is fixed: {names}"
+                                f"{more}.")  # fmt: skip
+    used, meets = used_materials(world)
+    if not meets.any():
+        return
+    materials = [world.materials[id] for id in used.tolist()]
+    named = [text for name, text in _SILENT.items() if any(getattr(m, name) for m in materials)]
+    if named:
+        message = f"Of the materials the engine does not use {', '.join(named)}."
+        yield MATERIAL_UNUSED.at(message=message)
+    differing = PairTable.of(world, used.tolist(), rule).differing(world, meets)
+    if differing:
+        message = f"Static friction is dropped, dynamic friction taken: {differing}."
+        yield FRICTIONS.at(message=message)
