@@ -233,6 +233,14 @@ def test_numbers_of_other_kinds_are_taken() -> None:
         world.body(2**70)
 
 
+@pytest.mark.parametrize("name", ["materials", "meshes", "names", "children", "top", "joints_of"])
+def test_parts_of_a_world_are_not_replaced(name: str) -> None:
+    world, other = scene(), scene()
+    with pytest.raises(WorldError, match="never replaced"):
+        setattr(world, name, getattr(other, name))
+    assert compare(world, other) == []
+
+
 def test_unknown_options_are_errors() -> None:
     world = World()
     with pytest.raises(TypeError, match="radios"):

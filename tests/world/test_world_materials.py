@@ -114,3 +114,24 @@ def test_explicit_ids_leave_gaps() -> None:
     assert [material.name for material in world.materials][5:] == ["near", "far", "after"]
     assert world.materials[40] is far and far in world.materials and 30 not in world.materials
     assert world.create_sphere(1, (0, 0, 0), 1, far).material is far
+
+
+def test_values_are_changed_by_column() -> None:
+    world = World()
+    iron = world.materials["iron"]
+    world.materials.change("density", [0, 3], [7000.0, 900.0])
+    assert world.materials["iron"].density == 7000 and world.materials["oak"].density == 900
+    assert world.materials.values("density").tolist() == [7000, 8920, 2800, 900, 500]
+    assert iron.density == 7874 and iron not in world.materials
+    box = world.create_box(1, (0, 0, 0), (1, 2, 3), "oak")
+    assert box.mass == 5400 and box.material is world.materials["oak"]
+    for key, ids, values in (
+        ("density", [0], [0.0]),
+        ("density", [9], [1.0]),
+        ("density", [0, 1], [1.0]),
+        ("colour", [0], [1.0]),
+        ("restitution", [0], [1.5]),
+    ):
+        with pytest.raises(WorldError):
+            world.materials.change(key, ids, values)
+    assert world.materials["iron"].density == 7000

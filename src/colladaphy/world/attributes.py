@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, Generic, Protocol, TypeVar, overload
+from typing import Any, Generic, Never, Protocol, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from colladaphy.world import values
-from colladaphy.world.rules import COLUMNS, refuse
+from colladaphy.world.rules import ARGUMENT, COLUMNS, refuse
 from colladaphy.world.table import Table
 
-__all__ = ["Column", "Setting"]
+__all__ = ["Column", "Held", "Setting"]
 
 Scalar = TypeVar("Scalar", bound=np.generic)
 Value = TypeVar("Value")
@@ -21,7 +21,8 @@ Value = TypeVar("Value")
 class HasTop(Protocol):
     """What has a table of top-level bodies."""
 
-    top: Table
+    @property
+    def top(self) -> Table: ...
 
 
 class Column(Generic[Scalar]):
@@ -49,6 +50,29 @@ class Column(Generic[Scalar]):
         except ValueError as error:
             shapes = f"{numbers.shape}, not {column.shape}"
             raise refuse(COLUMNS, f"The column {self._name} has the shape {shapes}.") from error
+
+
+class Held(Generic[Value]):
+    """What the storage of a World holds: it may be changed in place, but not be replaced."""
+
+    def __init__(self, description: str) -> None:
+        self.__doc__ = description
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self, holder: None, owner: type) -> Held[Value]: ...
+    @overload
+    def __get__(self, holder: object, owner: type) -> Value: ...
+    def __get__(self, holder: object | None, owner: type) -> Held[Value] | Value:
+        if holder is None:
+            return self
+        value: Value = getattr(vars(holder)["_storage"], self._name)
+        return value
+
+    def __set__(self, holder: object, value: Never) -> None:
+        raise refuse(ARGUMENT, f"The {self._name} of a World are changed, never replaced.")
 
 
 class Setting(Generic[Value]):

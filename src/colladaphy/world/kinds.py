@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import IntEnum
 
-__all__ = ["INFINITE_KINDS", "PRIMITIVE_KINDS", "JointKind", "Kind"]
+__all__ = ["JointKind", "Kind"]
 
 
 class Kind(IntEnum):
@@ -18,10 +18,6 @@ class Kind(IntEnum):
     ELLIPSOID = 5
     MESH = 6
     UNION = 7
-
-
-PRIMITIVE_KINDS = frozenset(Kind) - {Kind.UNION}
-INFINITE_KINDS = frozenset({Kind.PLANE})
 
 
 class JointKind(IntEnum):

@@ -197,17 +197,37 @@ class Materials:
             if key not in values:
                 raise refuse(MATERIAL_VALUE, f"The materials have no {key}.")
             column = columns[key] = checks.column(key, values[key], np.float64, (count,))
-            low, high, closed = _RANGES[key]
-            good = (column >= low) & (column <= high) if closed else (column > low)
-            bad = np.flatnonzero(~(good & np.isfinite(column)))
-            if len(bad):
-                check_value(texts[bad[0]], key, float(column[bad[0]]))
+            self._check_column(key, column, texts)
         self._table.extend(numbers, columns)
         listed = numbers.tolist()
         self._ids.update(zip(texts, listed, strict=True))
         self._names.update(zip(listed, texts, strict=True))
         self._next_id = max(self._next_id, max(listed, default=-1) + 1)
         return numbers
+
+    def change(self, key: str, ids: ArrayLike, values: ArrayLike) -> None:
+        """Give materials (n,) other values (n,) of one of `VALUES`, checked as new ones are.
+
+        A `Material` is immutable: those that were handed out keep the old value and are no longer
+        of this World.
+        """
+        if key not in VALUES:
+            raise refuse(MATERIAL_VALUE, f"Materials have no {key!r}, but {', '.join(VALUES)}.")
+        rows = self.rows(ids)
+        found = self.ids[rows].tolist()
+        column = checks.column(key, values, np.float64, rows.shape)
+        self._check_column(key, column, [self._names[id] for id in found])
+        self._table.column(key)[rows] = column
+        for id in found:
+            self._made.pop(id, None)
+
+    @staticmethod
+    def _check_column(key: str, column: NDArray[np.float64], names: Sequence[str]) -> None:
+        low, high, closed = _RANGES[key]
+        good = (column >= low) & (column <= high) if closed else (column > low)
+        bad = np.flatnonzero(~(good & np.isfinite(column)))
+        if len(bad):
+            check_value(names[bad[0]], key, float(column[bad[0]]))
 
     @property
     def ids(self) -> NDArray[np.int64]:
@@ -281,10 +301,6 @@ class Materials:
             return self[material]
         name = material.name if isinstance(material, Material) else material
         raise refuse(MATERIAL_UNKNOWN, f"There is no material {name!r} in this World.")
-
-    def by_id(self) -> dict[int, Material]:
-        """All materials by id, as a new dictionary."""
-        return {material.id: material for material in self}
 
     @property
     def overrides(self) -> tuple[PairOverride, ...]:

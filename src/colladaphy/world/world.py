@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from colladaphy.world import attaching, creating, rotations, uniting, values
 from colladaphy.world import joints as joining
-from colladaphy.world.attributes import Column, Setting
+from colladaphy.world.attributes import Column, Held, Setting
 from colladaphy.world.body import Body, sid_of
 from colladaphy.world.columns import BodyColumns, JointColumns, MemberColumns
 from colladaphy.world.creating import BodyOptions
@@ -21,6 +21,7 @@ from colladaphy.world.materials import (
     AnyMaterial,
     Material,
     MaterialPair,
+    Materials,
     MaterialValues,
     PairOverride,
 )
@@ -61,17 +62,17 @@ class World:
         self.time = 0.0
         self.step_count = 0
         self.engine_state = None
-        storage = self._storage = Storage()
-        self.top, self.inner = storage.top, storage.inner
-        self.joint_table, self.joints_of = storage.joint_table, storage.joints_of
-        self.materials = storage.materials
-        """The materials, by name and by id."""
-        self.meshes = storage.meshes
-        """Meshes by id, each shared between any number of bodies."""
-        self.names, self.joint_names = storage.names, storage.joint_names
-        """Names by system id, of the bodies and joints that have one."""
-        self.children = storage.children
-        """System ids of the members of each union, by that of the union, in their order."""
+        self._storage = Storage()
+
+    materials = Held[Materials]("The materials, by name and by id.")
+    meshes = Held[dict[int, Mesh]]("Meshes by id, each shared between any number of bodies.")
+    names = Held[dict[int, str]]("Names of bodies by system id, of those that have one.")
+    joint_names = Held[dict[int, str]]("Names of joints by system id, of those that have one.")
+    children = Held[dict[int, tuple[int, ...]]]("Members of each union in their order, by sids.")
+    joints_of = Held[dict[int, list[int]]]("The joints at each body that has some, by sids.")
+    top = Held[Table]("The bodies that are not members of a union.")
+    inner = Held[Table]("The members of unions, their poses relative to the union.")
+    joint_table = Held[Table]("The joints.")
 
     # --- the scene
 
