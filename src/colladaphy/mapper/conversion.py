@@ -17,7 +17,6 @@ from colladaphy.errors import DocumentError
 from colladaphy.mapper import rules
 from colladaphy.world import rotations
 from colladaphy.world.kinds import Kind
-from colladaphy.world.materials import VALUES, Materials
 
 if TYPE_CHECKING:
     from colladaphy.document import Document
@@ -130,15 +129,6 @@ def _turned(turn: Array, vectors: Array, turns: bool) -> Array:
 
 def _scale_densities(world: World, scale: float) -> None:
     """Custom materials with their density per new unit of volume; pe's own five stay pe's."""
-    old = world.materials
-    world.materials = Materials()
-    for material in old:
-        if material.id in world.materials:
-            continue
-        values = {name: getattr(material, name) for name in VALUES}
-        values["density"] /= scale**3
-        world.create_material(material.name, id=material.id, **values)
-    for pair in old.overrides:
-        world.set_pair(
-            pair.first, pair.second, pair.restitution, pair.static_friction, pair.dynamic_friction
-        )
+    materials = world.materials
+    custom = materials.ids[materials.ids >= materials.DEFAULT_COUNT]
+    materials.change("density", custom, materials.values("density", custom) / scale**3)
