@@ -198,7 +198,9 @@ def _candidates(state: _State) -> list[Floats]:
         if length == 0.0:
             continue
         normal = candidate / length
-        if not any(abs(float(normal @ other)) > 1.0 - 1e-12 for other in unique):
+        # By the sine: the cosine of an angle as small as the tolerance is 1, nearly to the last bit.
+        apart = (float(np.linalg.norm(np.cross(normal, other))) for other in unique)
+        if all(sine > TOLERANCE / 1000 for sine in apart):
             unique.append(normal)
     return unique
 

@@ -18,10 +18,23 @@ from colladaphy.world import rotations
 if TYPE_CHECKING:
     from colladaphy.world import Joint
 
-__all__ = ["Link", "plan"]
+__all__ = ["Flat", "Link", "Rail", "plan"]
 
 Floats = NDArray[np.float64]
 Flat = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Rail:
+    """A line, at load; points relative to the centres of the bodies."""
+
+    base: Flat
+    along: Flat
+    """Unit vector."""
+    limits: tuple[float, float]
+    """How far from the base the point may be."""
+    arm: Flat
+    """The point, of the second body."""
 
 
 @dataclass(slots=True)
@@ -34,8 +47,8 @@ class Link:
     collide: bool
     pivot: tuple[Flat, Flat] | None = None
     """Points of the two bodies that stay together."""
-    groove: tuple[Flat, Flat, Flat] | None = None
-    """Ends of a segment of the first body on which a point of the second stays."""
+    rail: Rail | None = None
+    """A straight line of the first body on which a point of the second stays."""
     phase: float | None = None
     """The angle of the second body against the first, which is zero at load, where locked."""
     turn: tuple[float, float] | None = None
@@ -140,12 +153,14 @@ class _Planner:
             link.pivot = (self._flat(base), self._flat(self.points[1]))
         elif len(inside) == 1:
             axis = inside[0]
-            far = 1e5 * self.size
-            ends = [
-                self._flat(base + max(-far, min(far, float(end))) * self.axes[axis])
-                for end in (low[axis], high[axis])
-            ]
-            link.groove = (ends[0], ends[1], self._flat(self.points[1]))
+            u, v = self._flat(self.axes[axis])
+            length = math.hypot(u, v)
+            link.rail = Rail(
+                self._flat(base),
+                (u / length, v / length),
+                (float(low[axis]), float(high[axis])),
+                self._flat(self.points[1]),
+            )
         elif not all(free[axis] for axis in inside):
             link.findings.append(
                 JOINT_LIMITS.at(message=f"{joint!r} has limits along two directions of the plane.")
