@@ -220,14 +220,20 @@ class Context:
 
     def keep(self, near: etree._Element, kind: str, **values: str) -> None:
         """Keep a value that has no place (an attribute, a text) in an extra near its element."""
+        self.keep_all(near, kind, [values])
+
+    def keep_all(self, near: etree._Element, kind: str, kept: list[dict[str, str]]) -> None:
+        """Keep values of one element; see `keep`."""
         technique = self.place(near)
         owner = technique.getparent()
         home = None if owner is None else owner.getparent()
-        kept = etree.SubElement(technique, f"{{{CONFORM}}}{kind}", nsmap=OWN_MAP)
-        if home is not None and home is not near:
-            kept.set("from", path_below(home, near))
-        for key, value in values.items():
-            kept.set(key, value)
+        origin = None if home is None or home is near else path_below(home, near)
+        for values in kept:
+            element = etree.SubElement(technique, f"{{{CONFORM}}}{kind}", nsmap=OWN_MAP)
+            if origin is not None:
+                element.set("from", origin)
+            for key, value in values.items():
+                element.set(key, value)
 
     def _may_have_extra(self, element: etree._Element) -> bool:
         kind = type_of(element)

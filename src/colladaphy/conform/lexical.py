@@ -28,6 +28,7 @@ _INTEGERS = {
     "unsignedByte": (0, 255),
 }
 _ANY = 1 << 30
+_LONGEST_WHOLE = 40
 _NAMES = ("NCName", "ID", "IDREF", "Name", "NMTOKEN")
 _FLOAT = r"(?:[+-]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][+-]?\d+)?|-?INF|NaN)"
 _PLAIN = {
@@ -80,6 +81,10 @@ def _atom_is_valid(text: str, kind: SimpleType) -> bool:
         if not _INTEGER.fullmatch(text):
             return False
         low, high = _bounds(kind)
+        if len(text) > _LONGEST_WHOLE:
+            text = text.rstrip("0123456789") + (text.lstrip("+-").lstrip("0") or "0")
+        if len(text) > _LONGEST_WHOLE:  # beyond all bounds that there are
+            return low is None if text.startswith("-") else high is None
         value = int(text)
         return (low is None or value >= low) and (high is None or value <= high)
     plain = _PLAIN.get(primitive)
@@ -241,11 +246,18 @@ _DATES = (
 )  # fmt: skip
 
 
+_LONGEST_DATE = 100
+_ZONE = re.compile(r"([+-][0-9]{2}):?([0-9]{2})$")
+_TIME = re.compile(r"[0-9][T ][0-9]")
+
+
 def _date_time(text: str) -> str | None:
+    if len(text) > _LONGEST_DATE:
+        return None  # whatever it is, it is no date
     text = " ".join(text.split())
-    zone = re.fullmatch(r"(.*\d[T ]\d.*?)\s*([+-]\d\d):?(\d\d)", text)
-    if zone is not None:
-        text = "".join(zone.groups())
+    zone = _ZONE.search(text)
+    if zone is not None and _TIME.search(text):
+        text = text[: zone.start()].rstrip() + zone[1] + zone[2]
     for layout in _DATES:
         try:
             return datetime.strptime(text, layout).isoformat()

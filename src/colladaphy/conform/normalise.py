@@ -37,6 +37,9 @@ def normalise(context: Context) -> None:
     _Normaliser(context).run()
 
 
+_MANY = 16
+
+
 class _Normaliser:
     def __init__(self, context: Context) -> None:
         self.context = context
@@ -66,8 +69,8 @@ class _Normaliser:
     # -- elements -----------------------------------------------------------------------------
 
     def _plain(self, element: etree._Element, declaration: Declaration, kind: SimpleType) -> None:
-        for name in list(element.attrib):
-            self._unknown_attribute(element, str(name))
+        found = [(str(name), str(value)) for name, value in element.attrib.items()]
+        self._unknown_attributes(element, found)
         self._only_text(element)
         self._value(element, declaration, kind)
 
@@ -152,26 +155,39 @@ class _Normaliser:
     # -- attributes ---------------------------------------------------------------------------
 
     def _attributes(self, element: etree._Element, kind: ComplexType) -> None:
-        for key, value in list(element.attrib.items()):
+        unknown: list[tuple[str, str]] = []
+        for key, value in element.attrib.items():
             name = str(key)
             known = kind.attributes.get(name)
             if known is None:
-                self._unknown_attribute(element, name)
+                unknown.append((name, str(value)))
             elif not is_valid(str(value), known.type):
                 self._attribute_value(element, known, str(value))
+        self._unknown_attributes(element, unknown)
         for attribute in kind.attributes.values():
             if attribute.required and attribute.name not in element.attrib:
                 self._missing_attribute(element, attribute)
 
-    def _unknown_attribute(self, element: etree._Element, name: str) -> None:
-        if self._is_about_the_schema(element, name) or not self.context.wants(
-            rules.UNKNOWN_ATTRIBUTE
-        ):
+    def _unknown_attributes(self, element: etree._Element, found: list[tuple[str, str]]) -> None:
+        """Move attributes into an extra, in a time that grows with their number."""
+        found = [pair for pair in found if not self._is_about_the_schema(element, pair[0])]
+        if not found or not self.context.wants(rules.UNKNOWN_ATTRIBUTE):
             return
-        value = str(element.attrib.pop(name))
-        message = f"attribute {name}={_short(value)} of <{local(element)}> moved into an extra"
-        self.context.note(rules.UNKNOWN_ATTRIBUTE, element, message)
-        self.context.keep(element, "attribute", name=name, value=value)
+        if len(found) < _MANY:
+            for name, _ in found:
+                del element.attrib[name]
+        else:  # each search for one goes through those before it
+            names = {name for name, _ in found}
+            rest = [(str(k), str(v)) for k, v in element.attrib.items() if str(k) not in names]
+            element.attrib.clear()
+            element.attrib.update(rest)
+        label = f"of <{local(element)}> moved into an extra"
+        for name, value in found:
+            message = f"attribute {_clip(name)}={_short(value)} {label}"
+            self.context.note(rules.UNKNOWN_ATTRIBUTE, element, message)
+        self.context.keep_all(
+            element, "attribute", [{"name": name, "value": value} for name, value in found]
+        )
 
     def _is_about_the_schema(self, element: etree._Element, name: str) -> bool:
         if name == XSI + "type":
@@ -296,6 +312,10 @@ def _cut(text: str, mended: str, *, less: bool) -> str:
         return ""
     words, _ = plain_numbers(text)
     return f"; left out: {_short(' '.join(words.split()[len(mended.split()) :]))}"
+
+
+def _clip(name: str) -> str:
+    return name if len(name) <= 60 else name[:57] + "…"
 
 
 def _names(elements: list[etree._Element]) -> str:

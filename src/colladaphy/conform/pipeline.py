@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from dataclasses import replace
 
 import numpy as np
 from lxml import etree
@@ -37,6 +38,8 @@ from colladaphy.gate import is_valid_text
 
 __all__ = ["conform"]
 
+_WIDEST = 4096
+_WIDE = etree.XPath(f"(//*[@*[{_WIDEST + 1}]])[1]")
 _Step = Callable[[Context], None]
 _UPGRADE: tuple[_Step, ...] = (
     mend_ids,
@@ -115,6 +118,8 @@ def conform(
     if version is None:
         finding = rules.NOT_COLLADA.at(tree.getroot(), file=file)
         return tree, [finding]
+    if (wide := _too_wide(tree)) is not None:
+        return tree, [wide if file is None else replace(wide, file=file)]
     twin, far_lines = copy_as_1_5(tree)
     origin = "colladaphy-1.4" if version.startswith("1.4") else "colladaphy-repair"
     context = Context(twin.getroot(), file=file, only=only, origin=origin)
@@ -124,6 +129,21 @@ def conform(
         _run(context, twin, version, convention)
     context.findings.sort(key=lambda finding: finding.line or 0)
     return twin, context.findings
+
+
+def _too_wide(tree: etree._ElementTree) -> Finding | None:
+    """An error where an element has so many attributes that each change of one takes long."""
+    root = tree.getroot()
+    if (count := len(root.nsmap)) > _WIDEST:
+        message = f"The root declares {count} namespaces; the limit is {_WIDEST}."
+        return rules.TOO_WIDE.at(root, message)
+    found = _WIDE(tree)
+    for element in found if isinstance(found, list) else ():
+        assert isinstance(element, etree._Element)
+        count = len(element.attrib)
+        message = f"An element has {count} attributes; the limit is {_WIDEST}."
+        return rules.TOO_WIDE.at(element, message)
+    return None
 
 
 def _run(context: Context, twin: etree._ElementTree, version: str, convention: str) -> None:

@@ -111,6 +111,12 @@ NOT_COLLADA = Rule(
     "the document is not COLLADA",
     "its root must be <COLLADA>; nothing was changed",
 )
+TOO_WIDE = Rule(
+    "repair-too-many-attributes",
+    _ERROR,
+    "an element has more attributes or declarations of namespaces than can be mended",
+    "no such element is COLLADA's; nothing was changed",
+)
 # Identifiers and references.
 ID_FORM = Rule(
     "repair-id-form", _WARNING, "an id was not an NCName", "references to it were rewritten"
