@@ -198,7 +198,7 @@ def _candidates(state: _State) -> list[Floats]:
         if length == 0.0:
             continue
         normal = candidate / length
-        # By the sine: the cosine of an angle as small as the tolerance is 1, nearly to the last bit.
+        # By the sine: the cosine of an angle as small as the tolerance is 1 in all bits but one.
         apart = (float(np.linalg.norm(np.cross(normal, other))) for other in unique)
         if all(sine > TOLERANCE / 1000 for sine in apart):
             unique.append(normal)
