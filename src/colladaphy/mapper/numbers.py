@@ -1,30 +1,14 @@
-"""Numbers as text and back, exactly.
-
-The shortest text that reads back to the same double, without a fraction that is zero: ``0.1``,
-``-0``, ``5e-324``, ``INF`` (XML Schema's spelling). Columns become text in one go.
-"""
+"""Numbers bit by bit, and angles in degrees that convert back exactly."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colladaphy.mapper.bulk import texts_of
-
-__all__ = [
-    "DEGREE",
-    "column_texts",
-    "degrees_exactly",
-    "differs",
-    "float_text",
-    "floats_text",
-    "row_texts",
-    "same_bits",
-]
+__all__ = ["DEGREE", "degrees_exactly", "differs", "same_bits"]
 
 Array = NDArray[Any]
 
@@ -32,34 +16,9 @@ DEGREE = math.pi / 180.0
 """One degree in radians; angles are converted with one multiplication by it."""
 
 
-def float_text(value: float) -> str:
-    """One number."""
-    if value - value != 0.0:
-        return "NaN" if value != value else ("INF" if value > 0 else "-INF")
-    text = repr(float(value))
-    return text[:-2] if text.endswith(".0") else text
-
-
-def floats_text(values: Iterable[float]) -> str:
-    """Numbers, separated by blanks."""
-    return " ".join(map(float_text, values))
-
-
-def column_texts(column: Array) -> list[str]:
-    """One text for each of (n,) finite numbers."""
-    return row_texts(column.reshape(-1, 1))
-
-
-def row_texts(rows: Array) -> list[str]:
-    """One text for each row of (n, m) finite numbers."""
-    return texts_of(rows)
-
-
 def same_bits(first: Array, second: Array) -> Array:
     """Where two arrays of doubles of the same shape agree in every bit (so that 0 is not -0)."""
-    one = np.ascontiguousarray(first, dtype=np.float64).view(np.int64)
-    other = np.ascontiguousarray(second, dtype=np.float64).view(np.int64)
-    return np.asarray(one == other)
+    return np.asarray(_bits(first) == _bits(second))
 
 
 def differs(rows: Array, other: ArrayLike) -> NDArray[np.bool_]:

@@ -1,7 +1,8 @@
 """Geometry of shapes: that of the common profile, and the exact values of the pe profile.
 
 The frames differ: COLLADA's capsule and cylinder lie along y, the World's along x, so such a shape
-is turned by -90 degrees about z; COLLADA's box has half extents, the World's full lengths.
+is turned by -90 degrees about z; COLLADA's box has half extents, the World's full lengths; a mesh
+keeps its vertices and is moved so that its centre of mass is the body's origin.
 """
 
 from __future__ import annotations

@@ -15,6 +15,7 @@ from colladaphy.mapper.storing.turns import turns_of
 from colladaphy.mapper.tessellation import extent, tessellate
 from colladaphy.world.kinds import Kind
 from colladaphy.world.masses import distinct
+from colladaphy.world.meshes import complete_shells
 from colladaphy_schema.core_columns import RotateTypeRows, TranslateTypeRows
 from colladaphy_schema.physics_columns import (
     RigidBodyTypeTechniqueCommonShapeHollowRows,
@@ -87,10 +88,9 @@ def _add_transforms(
         turns.append((there[turned], said[turned]))
     settled = np.flatnonzero(values["mesh_ids"] >= 0)
     if len(settled):
-        used, places = distinct(values["mesh_ids"][settled])
-        centers = np.array([world.meshes[id].center for id in used.tolist()])
-        off = (centers != 0.0).any(axis=1)[places]
-        moves.append((settled[off], -centers[places[off]]))
+        centers = _centers(world, values["mesh_ids"][settled], values["hollow"][settled])
+        off = (centers != 0.0).any(axis=1)
+        moves.append((settled[off], -centers[off]))
     across = is_turned(values["kinds"])
     if stand_ins is not None:
         across &= np.fromiter((id is None for id in stand_ins), np.bool_, len(stand_ins))
@@ -107,6 +107,20 @@ def _add_transforms(
         rotations = RotateTypeRows(len(owner), owner, order=order)
         rotations.value = numbers
         rows.rotate = rotations
+
+
+def _centers(world: World, mesh_ids: Array, hollow: Array) -> Array:
+    """The centres of mass (n, 3) in the frames of meshes."""
+    centers = np.empty((len(mesh_ids), 3))
+    for shell in (False, True):
+        rows = np.flatnonzero(hollow == shell)
+        used, places = distinct(mesh_ids[rows])
+        meshes = [world.meshes[id] for id in used.tolist()]
+        if shell:
+            complete_shells(meshes)
+        if meshes:
+            centers[rows] = np.array([mesh.center_of(shell) for mesh in meshes])[places]
+    return centers
 
 
 def _in_order(steps: Steps, first: int) -> tuple[Array, Array, Array]:

@@ -1,0 +1,36 @@
+"""The gate on the way out: every document is valid by construction, and checked."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lxml import etree
+
+from colladaphy.gate import gate, is_valid_text
+from colladaphy_schema.rows import Column, Rows
+
+if TYPE_CHECKING:
+    from colladaphy.findings import Finding
+
+__all__ = ["faults_of"]
+
+
+def faults_of(columns: Rows, data: bytes) -> list[Finding]:
+    """What is wrong with the text of a document; the gate is asked where anything is."""
+    ids = _ids(columns)
+    if len(set(ids)) == len(ids) and is_valid_text(data):
+        return []
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=True)
+    return gate(etree.ElementTree(etree.fromstring(data, parser)))
+
+
+def _ids(rows: Rows) -> list[str]:
+    """All ids of elements; libxml2 does not look whether one is there twice while it parses."""
+    found: list[str] = []
+    for field in rows.FIELDS:
+        value = rows.known.get(field.name)
+        if isinstance(value, Rows):
+            found += _ids(value)
+        elif isinstance(field, Column) and field.tag == "id" and isinstance(value, list):
+            found += [id for id in value if id is not None]
+    return found
