@@ -18,6 +18,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.growing import Growing
 from colladaphy.columns.names import Names, NotPlain, word_view, words_at
 
 __all__ = ["BLOCK", "Index", "NotPlain"]
@@ -41,34 +42,35 @@ class Index:
         size = len(data)
         self.data = data
         self.bytes: Array = np.frombuffer(data, np.uint8)
-        self._offset = np.int32 if size < 2**31 - 64 else np.int64
+        offset = np.int32 if size < 2**31 - 64 else np.int64
         self.names = Names()
         """The names of elements as they are written, by their codes."""
         self._last: list[int] = []  # the last element at each depth, over all blocks
         self._count = 0
         self._depth = 0
-        blocks = []
+        # start, stop, text_end, codes, parent, level; name_end, attributed, quotes, quote_places
+        types = [offset, offset, offset, np.int16, np.int32, np.int16,
+                 offset, np.int32, np.int32, offset]  # fmt: skip
+        columns = [Growing(kind) for kind in types]
         while start < size:
             stop = size if size - start <= 2 * block else data.find(b"<", start + block)
             stop = size if stop < 0 else stop
-            blocks.append(self._block(start, stop))
+            shifts = (start, start, start, 0, 0, 0, start, self._count, 0, start)
+            parts = self._block(start, stop)
+            for column, part, shift in zip(columns, parts, shifts, strict=True):
+                column.add(part, shift, stop / size)
             start = stop
         if self._depth != 0 or not self._count:
             raise NotPlain("tags are not balanced")
-        columns = []
-        for number in range(len(blocks[0])):
-            # What is joined is let go, so that no more than one column is in memory twice.
-            columns.append(np.concatenate([parts[number] for parts in blocks]))
-            for parts in blocks:
-                parts[number] = columns[-1][:0]
-        self.start, self.stop, self.text_end, self.codes, self.parent, self.level = columns[:6]
-        """Where the name starts, where the tag ends (its `>`), where the text ends, the code of
-        the name, the parent, the number of elements around it and itself."""
-        self.name_end, self.attributed, self.quotes, self.quote_places = columns[6:]
+        arrays = [column.array() for column in columns]
+        self.start, self.stop, self.text_end, self.codes, self.parent, self.level = arrays[:6]
+        """Where the name starts, where the tag ends (its `>`), where the text behind it ends, the
+        code of the name, the parent, the number of elements around it and itself."""
+        self.name_end, self.attributed, self.quotes, self.quote_places = arrays[6:]
         """Of the elements with attributes: ends of names, their rows, counts of quotes; the
         places of all quotes."""
         ends = np.cumsum(self.quotes, dtype=np.int64)
-        self.first_quote = (ends - self.quotes).astype(np.int32 if size < 2**31 else np.int64)
+        self.first_quote = (ends - self.quotes).astype(offset)
         self._by_code: dict[int, Array] = {}
         self.scratch = np.zeros(len(self.start), dtype=np.int32)
 
@@ -165,24 +167,16 @@ class Index:
         self._depth += int(running[-1]) if len(running) else 0
         # Where texts end: at the next tag, which for the last one is in the next block.
         text_end = np.append(lt[1:], end - begin)[opening]
+        np.copyto(text_end, stop + 1, where=empty)
         name_end = stop - empty
         attributed = np.flatnonzero(quotes)
         name_end[attributed] = _name_ends(part, start[attributed])
         _trim(part, start, name_end, quotes)
         codes = self.names.codes(part, start, name_end - start)
         quote_places = _quotes(part, places, left[opening[attributed]], quotes[attributed])
-        base = np.int32(self._count)
         self._count += len(opening)
-        return [
-            self._placed(start, begin), self._placed(stop, begin), self._placed(text_end, begin),
-            codes, parent, level,
-            self._placed(name_end[attributed], begin), attributed.astype(np.int32) + base,
-            quotes[attributed].astype(np.int32), self._placed(quote_places, begin),
-        ]  # fmt: skip
-
-    def _placed(self, places: Array, begin: int) -> Array:
-        found: Array = places.astype(self._offset)
-        return np.add(found, self._offset(begin), out=found)
+        return [start, stop, text_end, codes, parent, level,
+                name_end[attributed], attributed, quotes[attributed], quote_places]  # fmt: skip
 
     def _parents(self, level: Array) -> Array:
         """The parents of a block's elements; `level` is 1 for the root."""

@@ -100,7 +100,7 @@ def _attributes(index: Index) -> tuple[Ranges, Ranges, Array]:
     # The name is behind the end of the value before it, or of the element's name.
     starts = np.empty(len(opens), opens.dtype)
     starts[1:] = closes[:-1] + 1
-    starts[index.first_quote >> 1] = index.name_end
+    starts[index.first_quote // 2] = index.name_end
     candidates = np.flatnonzero(opens - starts >= 7)
     start = starts[candidates].astype(np.intp)
     while True:  # there is one blank, mostly

@@ -16,8 +16,10 @@ from colladaphy.columns.places import Place, Places
 from colladaphy.columns.plain import Tree, plain, serialised
 from colladaphy.columns.texts import (
     Ranges,
+    are_same,
     boolean_lists_of,
     booleans_of,
+    factors_of,
     floats_of,
     integers_of,
     strings_of,
@@ -33,8 +35,7 @@ U = np.uint64
 
 _TECHNIQUE = "{http://www.collada.org/2008/03/COLLADASchema}technique"
 _EXTRA = "{http://www.collada.org/2008/03/COLLADASchema}extra"
-_BLANKS = np.zeros(256, dtype=np.bool_)
-_BLANKS[[9, 10, 13, 32]] = True
+_FIRST, _BLANK, _BYTE = U(0xFF), U(32), U(8)
 _READERS = {"float": floats_of, "integer": integers_of, "boolean": boolean_lists_of}
 _FILLERS = {"float": np.nan, "integer": 0, "boolean": False}
 
@@ -111,6 +112,51 @@ class Document:
             foreign |= np.isin(index.codes[above], codes)
             above = np.maximum(index.parent[above], 0)
         return foreign
+
+    # --- texts that are compared only
+
+    def factorized(self, rows: Rows, name: str) -> tuple[Array, list[str]]:
+        """The values of an attribute as numbers (n,) into the different ones; -1 where none is.
+
+        For references: there are few different ones, mostly, and no string is made for a row.
+        """
+        there, ranges = self._attribute(rows, name)
+        numbers, first = factors_of(ranges)
+        texts = strings_of(ranges.take(first), "token", attribute=True, entities=self._entities)
+        if len(set(texts)) < len(texts):  # spelled differently
+            known: dict[str, int] = {}
+            again = np.array([known.setdefault(text, len(known)) for text in texts], np.int64)
+            numbers, texts = again[numbers], list(known)
+        if there is None:
+            return numbers, texts
+        codes = np.full(len(rows), -1, np.int64)
+        codes[there] = numbers
+        return codes, texts
+
+    def same_texts(self, rows: Rows, name: str, others: Rows, other_name: str) -> Array:
+        """Where (n,) an attribute of rows is that of as many others; False where one has none."""
+        first, some = self._attribute(rows, name)
+        second, more = self._attribute(others, other_name)
+        if len(rows) != len(others):
+            raise ValueError(f"there are {len(rows)} rows and {len(others)} others")
+        both = np.arange(len(rows))
+        if first is not None or second is not None:
+            one = both if first is None else first
+            two = both if second is None else second
+            both = np.intersect1d(one, two)
+            some = some.take(np.searchsorted(one, both))
+            more = more.take(np.searchsorted(two, both))
+        same = are_same(some, more)
+        odd = np.flatnonzero(~same)
+        if len(odd):  # blanks and references may be spelled differently
+            texts = [
+                strings_of(ranges.take(odd), "token", attribute=True, entities=self._entities)
+                for ranges in (some, more)
+            ]
+            same[odd] = [one == two for one, two in zip(*texts, strict=True)]
+        found = np.zeros(len(rows), np.bool_)
+        found[both] = same
+        return found
 
     # --- single elements, by their numbers in the document
 
@@ -252,8 +298,8 @@ class Document:
         return found
 
     def _values(self, ranges: Ranges, column: Column[Any], empty: str) -> Array:
-        blank = ranges.stops <= ranges.starts
-        if empty and bool(blank.any()):
+        blank = self._empty(ranges) if empty else None
+        if blank is not None and bool(blank.any()):
             one = np.frombuffer(empty.encode(), np.uint8)
             default = self._values(Ranges(one, np.array([0]), np.array([len(one)])), column, "")
             values = np.repeat(default, len(ranges), axis=0)
@@ -262,7 +308,8 @@ class Document:
             return values
         if column.kind == "boolean" and not column.tokens:
             return booleans_of(ranges)
-        values, counts = _READERS[column.kind](ranges)
+        width = 1 if column.width is None else column.width
+        values, counts = _READERS[column.kind](ranges, width)
         if column.width is None:
             if len(values) != len(ranges):
                 raise ValueError(f"there are {len(values)} numbers in {len(ranges)} texts")
@@ -273,10 +320,18 @@ class Document:
             raise ValueError(f"lists of <{column.name}> have not {column.width} numbers each")
         return values.reshape(len(ranges), column.width)
 
+    def _empty(self, ranges: Ranges) -> Array:
+        """Which texts have nothing in them, but for comments."""
+        empty = ranges.stops <= ranges.starts
+        if self._blanked:
+            rows = np.flatnonzero(~empty)
+            empty[rows] = [not text.strip(b"\0") for text in ranges.take(rows).texts()]
+        return np.asarray(empty)
+
     def _lists(
         self, ranges: Ranges, column: Column[Any], there: Array | None, whole: bool, count: int
     ) -> Lists:
-        values, counts = _READERS[column.kind](ranges)
+        values, counts = _READERS[column.kind](ranges, None)
         if counts is None:
             each = len(values) // max(len(ranges), 1)
             counts = np.full(len(ranges), each, np.int64)
@@ -319,13 +374,7 @@ class Document:
     def _texts(self, elements: Array) -> Ranges:
         """What stands in elements of simple content."""
         index = self.index
-        stops = index.stop[elements]
-        starts = stops + 1
-        ends = index.text_end[elements]
-        empty = index.is_empty(elements)
-        if bool(empty.any()):
-            ends = np.where(empty, starts, ends)
-        return Ranges(index.bytes, starts, ends)
+        return Ranges(index.bytes, index.stop[elements] + 1, index.text_end[elements])
 
     def ranges(self, rows: Rows, name: str) -> tuple[Array | None, Ranges]:
         """Where the values of an attribute stand: the rows that have one (None: all), the bytes."""
@@ -365,14 +414,18 @@ class Document:
 
     def _ends_with(self, ends: Array, key: bytes) -> Array:
         """Whether a key, with a blank before it, ends at each place."""
-        data = self.index.bytes
-        view = word_view(data)
-        start = ends - len(key)
+        view = word_view(self.index.bytes)
+        # The blank before the key and seven bytes of it, then the rest.
+        start = ends - len(key) - 1
         same = start > 0
-        start = np.maximum(start, 1)
-        same &= _BLANKS[data[start - 1]]
-        for place in range(0, len(key), 8):
+        start = np.maximum(start, 0)
+        words = words_at(view, start)
+        same &= (words & _FIRST) <= _BLANK
+        first = key[:7]
+        words >>= _BYTE
+        same &= (words & LOW[len(first)]) == U(int.from_bytes(first, "little"))
+        for place in range(7, len(key), 8):
             part = key[place : place + 8]
-            word = U(int.from_bytes(part, "little"))
-            same &= (words_at(view, start + place) & LOW[len(part)]) == word
-        return same
+            words = words_at(view, start + (place + 1)) & LOW[len(part)]
+            same &= words == U(int.from_bytes(part, "little"))
+        return np.asarray(same)

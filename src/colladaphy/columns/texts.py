@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 import struct
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 import orjson
@@ -20,8 +20,10 @@ from colladaphy.columns.names import LOW, word_view, words_at
 
 __all__ = [
     "Ranges",
+    "are_same",
     "boolean_lists_of",
     "booleans_of",
+    "factors_of",
     "floats_of",
     "integers_of",
     "strings_of",
@@ -98,8 +100,8 @@ class Ranges:
         if made is None:
             return b"".join(text + bytes([separator]) for text in self.texts()).replace(b"\0", b"")
         words, lengths = made
-        letters = words.view(np.uint8)
-        letters[np.arange(len(lengths)), lengths] = separator
+        letters = words.view(np.uint8).reshape(-1)
+        letters[np.arange(len(lengths)) * (words.shape[1] * 8) + lengths] = separator
         return letters.tobytes().translate(None, b"\0")
 
     def all_equal(self) -> bool:
@@ -116,6 +118,45 @@ class Ranges:
             return False
         made = self.words()
         return made is not None and bool(np.all(made[0] == made[0][0]))
+
+
+def factors_of(ranges: Ranges) -> tuple[Array, Array]:
+    """Which texts are the same: the number of each one's (n,), and a row (m,) that has it."""
+    if ranges.all_equal():
+        return np.zeros(len(ranges), np.int64), np.zeros(1, np.int64)
+    made = ranges.words()
+    if made is not None and len(ranges):
+        words, lengths = made
+        mixed = lengths.astype(U)
+        for column in range(words.shape[1]):
+            mixed ^= words[:, column]
+            mixed *= _MIX
+            mixed ^= mixed >> U(29)
+        _, rows, numbers = np.unique(mixed, return_index=True, return_inverse=True)
+        first = rows[numbers]
+        if np.array_equal(words[first], words) and np.array_equal(lengths[first], lengths):
+            return numbers, rows
+    known: dict[bytes, int] = {}
+    numbers = np.array([known.setdefault(text, len(known)) for text in ranges.texts()], np.int64)
+    return numbers, np.unique(numbers, return_index=True)[1]
+
+
+_MIX: Final = U(0x9E3779B97F4A7C15)
+
+
+def are_same(some: Ranges, others: Ranges) -> Array:
+    """Where the bytes of two lists of texts (n,) are the same."""
+    same = (some.stops - some.starts) == (others.stops - others.starts)
+    lengths = some.stops - some.starts
+    longest = int(lengths[same].max(initial=0))
+    first, second = word_view(some.data), word_view(others.data)
+    for place in range(0, longest, 8):
+        rows = np.flatnonzero(same & (lengths > place))
+        one = words_at(first, some.starts[rows] + place)
+        one ^= words_at(second, others.starts[rows] + place)
+        one &= LOW[np.minimum(lengths[rows] - place, 8)]
+        same[rows[one != 0]] = False
+    return np.asarray(same)
 
 
 def strings_of(ranges: Ranges, kind: str, *, attribute: bool, entities: bool) -> list[str]:
@@ -177,41 +218,44 @@ def _words_of(text: bytes) -> list[bytes]:
     return text.split()
 
 
-def floats_of(ranges: Ranges) -> tuple[Array, Array | None]:
-    """All numbers in the texts, and how many are in each (None: the same count in all)."""
-    return _numbers(ranges, np.float64, _float)
+def floats_of(ranges: Ranges, width: int | None) -> tuple[Array, Array | None]:
+    """All numbers in the texts, and how many are in each (None: the same count in all).
+
+    `width` is how many there are in each, if that is known; it is not looked at then.
+    """
+    return _numbers(ranges, np.float64, float, width)
 
 
-def integers_of(ranges: Ranges) -> tuple[Array, Array | None]:
+def integers_of(ranges: Ranges, width: int | None) -> tuple[Array, Array | None]:
     """The same for integers; those beyond 64 bits make an array of Python's integers."""
-    return _numbers(ranges, np.int64, int)
+    return _numbers(ranges, np.int64, int, width)
 
 
-def _float(word: bytes) -> float:
-    return float(word)
-
-
-def _numbers(ranges: Ranges, dtype: Any, parse: Any) -> tuple[Array, Array | None]:
+def _numbers(
+    ranges: Ranges, dtype: Any, parse: Any, width: int | None
+) -> tuple[Array, Array | None]:
     if not len(ranges):
         return np.zeros(0, dtype), None
     if len(ranges) > 1 and ranges.all_equal():
-        one, _ = _part(ranges.part(0, 1), dtype, parse)
+        one, _ = _part(ranges.part(0, 1), dtype, parse, width)
         return np.tile(one, len(ranges)), None
     values: list[Array] = []
     counts: list[Array] = []
-    same = True
     for begin in range(0, len(ranges), _PART):
-        numbers, count = _part(ranges.part(begin, begin + _PART), dtype, parse)
+        numbers, count = _part(ranges.part(begin, begin + _PART), dtype, parse, width)
         values.append(numbers)
-        counts.append(count)
-        same = same and bool(np.all(count == counts[0][0]))
+        if count is not None:
+            counts.append(count)
     found = values[0] if len(values) == 1 else np.concatenate(values)
-    return found, None if same else np.concatenate(counts)
+    if width is not None:
+        return found, None
+    every = np.concatenate(counts)
+    return found, None if bool(np.all(every == every[0])) else every
 
 
-def _part(ranges: Ranges, dtype: Any, parse: Any) -> tuple[Array, Array]:
+def _part(ranges: Ranges, dtype: Any, parse: Any, width: int | None) -> tuple[Array, Array | None]:
     """The numbers in some texts, and how many each has."""
-    text = _json(ranges)
+    text = _json(ranges, width)
     if text is not None:
         made = _parsed(text[0], "d" if dtype is np.float64 else "q")
         if made is not None:
@@ -246,8 +290,11 @@ def _parsed(text: bytes, kind: str) -> Array | None:
 _NEGATIVE_ZERO = re.compile(rb"-0(?=[, \]])")
 
 
-def _json(ranges: Ranges) -> tuple[bytes, Array] | None:
-    """The texts as one JSON list, and how many numbers each has; None where that would be wrong."""
+def _json(ranges: Ranges, width: int | None) -> tuple[bytes, Array | None] | None:
+    """The texts as one JSON list, and how many numbers each has; None where that would be wrong.
+
+    The numbers are not counted where `width` says how many there are.
+    """
     made = ranges.words(1)
     if made is None:
         return _long_json(ranges)
@@ -255,12 +302,19 @@ def _json(ranges: Ranges) -> tuple[bytes, Array] | None:
     if not bool(np.all(lengths)):
         return None
     letters = words.view(np.uint8)
-    spaces = letters == 32
-    counts = np.count_nonzero(spaces, axis=1) + 1
-    np.copyto(letters, 44, where=spaces)
-    np.copyto(letters, 32, where=letters == 0)
-    letters[np.arange(len(lengths)), lengths] = 44
-    return b"[%b]" % letters.tobytes().rstrip(b" ")[:-1], counts
+    counts = None
+    if width is None:
+        counts = np.count_nonzero(_IS_BLANK[letters], axis=1) + 1
+    letters.reshape(-1)[np.arange(len(lengths)) * letters.shape[1] + lengths] = _COMMA
+    text = letters.tobytes().translate(_TO_JSON).rstrip(b" ")
+    return b"[%b]" % text[:-1], counts
+
+
+_COMMA: Final = 44
+_IS_BLANK: Final = np.zeros(256, np.bool_)
+_IS_BLANK[list(_BLANK_BYTES)] = True
+# What stands behind the texts, zeros, are the blanks of JSON.
+_TO_JSON: Final = bytes.maketrans(_BLANK_BYTES + b"\0", b",,,, ")
 
 
 def _long_json(ranges: Ranges) -> tuple[bytes, Array] | None:
@@ -286,7 +340,7 @@ def booleans_of(ranges: Ranges) -> Array:
                     dtype=np.bool_)  # fmt: skip
 
 
-def boolean_lists_of(ranges: Ranges) -> tuple[Array, Array]:
+def boolean_lists_of(ranges: Ranges, _: int | None) -> tuple[Array, Array]:
     """All truth values in lists, and how many are in each."""
     words = [_words_of(text) for text in ranges.texts()]
     values = [word in (b"true", b"1") for each in words for word in each]
