@@ -1,4 +1,4 @@
-"""`python -m tools.bench [--bodies 1000,10000,100000] [--repeat 5]`."""
+"""`python -m tools.bench [--bodies 1000,10000,100000] [--repeat 5] [--kinds all]`."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ import argparse
 import tempfile
 from pathlib import Path
 
-from tools.bench.measuring import Timing, exponent, interleaved, peak_memory
-from tools.bench.steps import STEPS, STOCK, document
+from tools.bench.measuring import HEAPS, Timing, exponent, interleaved, peak_memory
+from tools.bench.steps import STEPS, STOCK, document, steps_of
 
 
 def sizes(text: str) -> list[int]:
@@ -16,14 +16,21 @@ def sizes(text: str) -> list[int]:
 
 def main(arguments: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog="python -m tools.bench", description=__doc__)
-    parser.add_argument("--bodies", type=sizes, default=[1000, 10_000, 100_000], metavar="N,…")
+    parser.add_argument("--bodies", type=sizes, metavar="N,…")
     parser.add_argument("--repeat", type=int, default=5, help="turns that count (default 5)")
     parser.add_argument(
         "--stock-up-to", type=int, default=1000, metavar="N",
         help="largest size for stock xsdata, which is slow (default 1000)",
     )  # fmt: skip
     parser.add_argument("--no-memory", action="store_true", help="leave peak memory out")
+    parser.add_argument(
+        "--kinds", metavar="NAME,…", help="compare kinds of content in place of sizes; 'all' of "
+        "them, or some (10,000 bodies unless --bodies says otherwise)",
+    )  # fmt: skip
     options = parser.parse_args(arguments)
+    if options.kinds:
+        return compare_kinds(options.kinds, (options.bodies or [10_000])[-1], options.repeat)
+    options.bodies = options.bodies or [1000, 10_000, 100_000]
     timings: dict[str, dict[int, Timing]] = {step: {} for step in STEPS}
     with tempfile.TemporaryDirectory() as folder:
         print(f"{'':18}{'bodies':>8}{'µs a body':>12}{'× parse':>9}{'peak MB':>9}")
@@ -48,6 +55,33 @@ def main(arguments: list[str] | None = None) -> int:
         print(f"\nstock xsdata was measured up to {options.stock_up_to} bodies only")
     print("Spheres with pose, velocity and mass, one material. The unit is lxml.etree.parse of the")
     print("same file. Peak memory is that of a whole process that prepares and does the step.")
+    return 0
+
+
+def compare_kinds(names: str, count: int, repeat: int) -> int:
+    """Print what every kind of content takes, on a warm and on a cold heap."""
+    from tools.bench.kinds import KINDS
+
+    chosen = list(KINDS) if names == "all" else names.split(",")
+    unknown = [name for name in chosen if name not in KINDS]
+    if unknown:
+        raise SystemExit(f"There is no kind {unknown[0]!r}, but {', '.join(KINDS)}.")
+    print(f"| {count} bodies | bytes a body | heap | parse, µs a body | gate | load | store |")
+    print("|-|-|-|-|-|-|-|")
+    with tempfile.TemporaryDirectory() as folder:
+        for name in chosen:
+            file = Path(folder) / f"{name}.dae"
+            file.write_bytes(document(count, name))
+            for heap in HEAPS:
+                times = interleaved(file, steps_of(name), repeat, heap=heap, kind=name)
+                ratios = [f"{times[step].ratio:.2f}" if step in times else "–"
+                          for step in ("gate", "load", "store")]  # fmt: skip
+                parse = times["parse"].seconds / count * 1e6
+                size = file.stat().st_size / count
+                print(f"| {name} | {size:.0f} | {heap} | {parse:.2f} | {' | '.join(ratios)} |",
+                      flush=True)  # fmt: skip
+    print("\nGate, load and store are × parse, which is lxml.etree.parse of the same file. All are")
+    print("time of the processor, in turns, the median of the turns.")
     return 0
 
 

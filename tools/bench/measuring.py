@@ -1,17 +1,22 @@
-"""Times and peak memory of the steps."""
+"""Times and peak memory of the steps.
+
+The same code takes twice as long on a heap that another step left in pieces or gave back, so the
+heap is brought to a known state before every timing, and the time is that of the processor.
+"""
 
 from __future__ import annotations
 
+import ctypes
 import gc
 import math
 import resource
 import statistics
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 
 from tools.bench.steps import prepare
 
@@ -24,20 +29,40 @@ class Timing:
     ratio: float
 
 
-def interleaved(file: Path, steps: Sequence[str], repeat: int) -> dict[str, Timing]:
+def _warm() -> None:
+    gc.collect()
+    # The allocator tidies up before it serves so much.
+    bytearray(_LARGE)
+
+
+def _cold() -> None:
+    gc.collect()
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
+    if trim is not None:
+        trim(0)
+
+
+_LARGE = 1 << 28
+HEAPS: dict[str, Callable[[], None]] = {"warm": _warm, "cold": _cold}
+"""States of the heap: what was freed is there to be used again, or was given back."""
+
+
+def interleaved(
+    file: Path, steps: Sequence[str], repeat: int, *, heap: str = "warm", kind: str = "spheres"
+) -> dict[str, Timing]:
     """Time the steps in turns, so that a slow moment of the machine meets all of them.
 
     The ratio is the median over the turns of a step's time to the time of the first step, the
     unit, in the same turn. The first turn warms up and does not count.
     """
-    functions = {step: prepare(step, file) for step in steps}
+    functions = {step: prepare(step, file, kind) for step in steps}
     times: dict[str, list[float]] = {step: [] for step in steps}
     for _ in range(repeat + 1):
         for step, function in functions.items():
-            gc.collect()
-            start = perf_counter()
+            HEAPS[heap]()
+            start = process_time()
             result = function()
-            times[step].append(perf_counter() - start)
+            times[step].append(process_time() - start)
             del result
     unit = times[steps[0]][1:]
     return {

@@ -1,67 +1,31 @@
-"""What is measured: one World of spheres, and the ways to read and to write it."""
+"""What is measured: the ways to read and to write a World of spheres, or of another kind."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
-from typing import Any
 
 STOCK = ("xsdata parse", "xsdata serialize")
 STEPS = ("parse", "load", "store", *STOCK)
+KIND_STEPS = ("parse", "gate", "load", "store")
 
 
-def spheres(count: int) -> Any:
-    """A World of spheres of one material, each with pose, velocity and mass of its own."""
-    import numpy as np
+def document(count: int, kind: str = "spheres") -> bytes:
+    """The file of a World of a kind of KINDS."""
+    from tools.bench.kinds import KINDS
 
-    from colladaphy.world import Kind, World
-    from colladaphy.world.columns import BodyColumns
-
-    world = World(gravity=(0.0, 0.0, -9.81))
-    material = world.create_material(
-        "soft",
-        density=1.2,
-        restitution=0.4,
-        static_friction=0.5,
-        dynamic_friction=0.1,
-        poisson_ratio=0.2,
-        young_modulus=1.0,
-        stiffness=8.0,
-        damping_normal=0.0,
-        damping_tangential=0.0,
-    )
-    random = np.random.default_rng(count)
-    quaternions = random.standard_normal((count, 4))
-    quaternions /= np.linalg.norm(quaternions, axis=1)[:, None]
-    dimensions = np.zeros((count, 4))
-    dimensions[:, 0] = random.uniform(0.5, 2.0, count)
-    world.extend(
-        BodyColumns(
-            kinds=np.full(count, int(Kind.SPHERE)),
-            uids=np.arange(count),
-            positions=random.uniform(-100.0, 100.0, (count, 3)),
-            orientations=quaternions,
-            linear_velocities=random.standard_normal((count, 3)),
-            angular_velocities=random.standard_normal((count, 3)),
-            masses=random.uniform(1.0, 10.0, count),
-            material_ids=np.full(count, material.id),
-            dimensions=dimensions,
-        )
-    )
-    return world
+    return KINDS[kind].document(count)
 
 
-def document(count: int) -> bytes:
-    """The file of that World."""
-    import colladaphy
+def steps_of(kind: str) -> tuple[str, ...]:
+    """The steps that tell kinds apart; there is nothing to store of a file that was edited."""
+    from tools.bench.kinds import KINDS
 
-    target = BytesIO()
-    colladaphy.write(spheres(count), target)
-    return target.getvalue()
+    return KIND_STEPS if KINDS[kind].edit is None else KIND_STEPS[:-1]
 
 
-def prepare(step: str, file: Path) -> Callable[[], object]:
+def prepare(step: str, file: Path, kind: str = "spheres") -> Callable[[], object]:
     """A step of STEPS as a function of nothing, with everything it needs already there."""
     if step == "parse":
         from lxml import etree
@@ -70,13 +34,21 @@ def prepare(step: str, file: Path) -> Callable[[], object]:
     data = file.read_bytes()
     if step in STOCK:
         return _stock(step, data)
+    if step == "gate":
+        from colladaphy.gate import is_valid_text
+
+        return lambda: is_valid_text(data)
 
     import colladaphy
 
     if step == "load":
         return lambda: colladaphy.read(data).load()
+
+    from tools.bench.kinds import KINDS
+
+    options = KINDS[kind].write_options
     world = colladaphy.read(data).load()
-    return lambda: colladaphy.write(world, BytesIO())
+    return lambda: colladaphy.write(world, BytesIO(), options=options)
 
 
 def _stock(step: str, data: bytes) -> Callable[[], object]:
