@@ -32,6 +32,7 @@ from colladaphy.conform.normalise import drop_foreign_types, normalise
 from colladaphy.conform.numerals import may_lack_digits
 from colladaphy.conform.placing import split_matrices
 from colladaphy.conform.profiles import mend_profiles
+from colladaphy.conform.scaled_nodes import apply_scales
 from colladaphy.conform.versions import copy_as_1_5, detect_version, note_version
 from colladaphy.findings import Finding
 from colladaphy.gate import is_valid_text
@@ -167,4 +168,5 @@ def _run(context: Context, twin: etree._ElementTree, version: str, convention: s
         for step in _REFERENCES:
             step(context)
     set_aside_dangling(context)
+    apply_scales(context)
     inertias.place_mass_frames(context)

@@ -253,6 +253,12 @@ INERTIA = Rule(
     "inertia was a tensor of six or nine numbers",
     "its principal values are given, in a turned mass_frame",
 )
+SCALED = Rule(
+    "repair-scaled-node",
+    _WARNING,
+    "the node of a body was scaled or mirrored",
+    "bodies are rigid: write their shapes in the size that they have",
+)
 # References.
 MISSING_BODY = Rule(
     "repair-missing-body",
