@@ -15,6 +15,7 @@ from colladaphy.columns.index import Index
 from colladaphy.columns.names import Names, NotPlain
 from colladaphy.columns.plain import plain
 from colladaphy.columns.reading import Document
+from colladaphy.columns.words import Words
 from colladaphy_schema.rows import Column, Rows
 
 BLOCKS = (1, 40, 1 << 20)
@@ -237,9 +238,13 @@ def test_names_that_collide_are_told_apart() -> None:
     data = b"<" + b"/><".join(names) + b"/>"
     starts = np.cumsum([1, *(len(name) + 3 for name in names[:-1])])
     known = Names()
-    codes = known.codes(np.frombuffer(data, np.uint8), starts, np.array(list(map(len, names))))
+    codes = known.codes(
+        Words(np.frombuffer(data, np.uint8)), starts, np.array(list(map(len, names)))
+    )
     assert [known.texts[code] for code in codes.tolist()] == names
-    again = known.codes(np.frombuffer(data, np.uint8), starts, np.array(list(map(len, names))))
+    again = known.codes(
+        Words(np.frombuffer(data, np.uint8)), starts, np.array(list(map(len, names)))
+    )
     assert np.array_equal(again, codes)
 
 
@@ -270,3 +275,13 @@ def test_an_element_is_found_over_comments() -> None:
     assert [document.element(number).tag for number in range(4)] == ["a", "b", "c", "d"]
     with pytest.raises(ValueError, match="without a tree"):
         Document.of(b"<a/>").element(0)
+
+
+@given(st.binary(min_size=1, max_size=70), st.data())
+def test_words_at_any_place(data: bytes, draw: st.DataObject) -> None:
+    places = draw.draw(st.lists(st.integers(0, len(data) - 1)))
+    found = Words(np.frombuffer(data, np.uint8)).at(np.array(places, np.int64))
+    padded = data + bytes(8)
+    assert [int(word) for word in found] == [
+        int.from_bytes(padded[place : place + 8], "little") for place in places
+    ]

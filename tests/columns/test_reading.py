@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from colladaphy.columns import texts as texts_module
 from colladaphy.columns.reading import Document
 from colladaphy.columns.texts import Ranges, are_same, booleans_of, floats_of, integers_of
+from colladaphy.columns.words import Words
 from colladaphy_schema.core_columns import FloatArrayTypeRows, TargetableFloat3TypeRows
 from colladaphy_schema.physics_columns import InstanceRigidBodyTypeRows, RigidBodyTypeRows
 from colladaphy_schema.rows import Column, Lists, Rows
@@ -30,7 +31,7 @@ def ranges(texts: list[str]) -> Ranges:
     data = "|".join(texts).encode() + b"|"
     stops = np.cumsum([len(text.encode()) + 1 for text in texts]) - 1
     starts = np.array([0, *(stops[:-1] + 1)])
-    return Ranges(np.frombuffer(data, np.uint8), starts, stops)
+    return Ranges(Words(np.frombuffer(data, np.uint8)), starts, stops)
 
 
 def bits(values: Any) -> list[str]:
@@ -73,7 +74,11 @@ def test_lists_of_numbers(rows: list[list[tuple[str, str]]], data: st.DataObject
         spelled.append(data.draw(st.sampled_from(["", "", "\n "])) + text
                        if data.draw(st.booleans()) else text.rstrip())  # fmt: skip
     expected = [[float(word) for word in text.split()] for text in spelled]
-    found = ranges(spelled) if spelled else Ranges(np.zeros(0, np.uint8), *[np.zeros(0, int)] * 2)
+    found = (
+        ranges(spelled)
+        if spelled
+        else Ranges(Words(np.zeros(0, np.uint8)), *[np.zeros(0, int)] * 2)
+    )
     before = texts_module._PART
     texts_module._PART = 3
     try:

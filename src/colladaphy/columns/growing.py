@@ -23,19 +23,16 @@ class Growing:
         self._array: Array = np.empty(0, dtype)
         self._size = 0
 
-    def add(self, part: Array, shift: int, done: float) -> None:
-        """Add numbers to which `shift` is added; `done` is the share of all with them (0, 1]."""
+    def add(self, part: Array, done: float) -> None:
+        """Add numbers; `done` is the share of all that there is with them (0, 1]."""
         size = self._size + len(part)
-        kept = np.result_type(self._array, part) if part.dtype == np.int32 else self._array.dtype
+        # Codes of names outgrow 16 bits where there are very many names.
+        kept = max(self._array.dtype, part.dtype) if part.dtype == np.int32 else self._array.dtype
         if size > len(self._array) or kept != self._array.dtype:
             grown = np.empty(max(int(size / done * 1.05) + 64, size), kept)
             grown[: self._size] = self._array[: self._size]
             self._array = grown
-        target = self._array[self._size : size]
-        if shift:
-            np.add(part, shift, out=target, casting="unsafe")
-        else:
-            target[:] = part
+        self._array[self._size : size] = part
         self._size = size
 
     def array(self) -> Array:

@@ -2,40 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["LOW", "Names", "NotPlain", "word_view", "words_at"]
+from colladaphy.columns.words import LOW, Words
+
+__all__ = ["Names", "NotPlain"]
 
 Array = NDArray[Any]
 U = np.uint64
 
-LOW: Final = np.array([(1 << (8 * k)) - 1 for k in range(8)] + [2**64 - 1], dtype=U)
-"""Masks of the first k bytes of a little-endian word."""
-
 
 class NotPlain(ValueError):  # noqa: N818
     """The bytes hold what the index cannot tell apart by looking at single characters."""
-
-
-def word_view(data: Array) -> Array:
-    """The eight bytes (little-endian) that begin at the places of some bytes but the last seven."""
-    if len(data) < 8:
-        data = np.concatenate([data, np.zeros(8, np.uint8)])
-    return np.ndarray((len(data) - 7,), "<u8", data, 0, (1,))
-
-
-def words_at(view: Array, places: Array) -> Array:
-    """The eight bytes that begin at places; zeros behind the end of all."""
-    limit = len(view) - 1
-    if not len(places) or int(places.max()) <= limit:
-        return np.asarray(view[places])
-    inside = np.minimum(places, limit)
-    beyond = np.minimum(places - inside, 8).astype(U) << U(3)
-    # A shift by a whole word does nothing, so that it is done in two halves.
-    return np.asarray((view[inside] >> (beyond >> U(1))) >> (beyond - (beyond >> U(1))))
 
 
 class Names:
@@ -62,41 +43,41 @@ class Names:
         self.texts.append(b"")
         return len(self.texts) - 1
 
-    def codes(self, part: Array, start: Array, length: Array) -> Array:
-        """The codes (n,) of names that stand at `start` in the bytes of a block."""
+    def codes(self, words: Words, start: Array, length: Array) -> Array:
+        """The codes (n,) of names that stand at `start` in the bytes."""
         if not len(start):
             return np.zeros(0, np.int16)
-        view = word_view(part)
-        first = words_at(view, start)
-        first &= LOW[np.minimum(length, 8)]
+        first = words.at(start)
+        first &= LOW.take(length, mode="clip")
         last = np.zeros(len(start), U)
         long = np.flatnonzero(length > 8)
-        last[long] = view[start[long] + length[long] - 8]
+        last[long] = words.at(start[long] + length[long] - 8)
         middle = long[length[long] > 16]
         while True:
             found = self._look_up(first, last, length)
-            self._check_middles(view, start[middle], length[middle], found, middle)
+            self._check_middles(words, start[middle], length[middle], found, middle)
             unknown = np.flatnonzero(found < 0)
             if not len(unknown):
                 return found
             few = unknown[:256]  # mostly the same few names
-            if not self._learn(part, start[few], length[few]):
-                return self._one_by_one(part, start, length, found, unknown)
+            if not self._learn(words.data, start[few], length[few]):
+                return self._one_by_one(words.data, start, length, found, unknown)
 
     def _look_up(self, first: Array, last: Array, length: Array) -> Array:
-        place = self._table[self._buckets(first, last, length)]
-        same = self._first[place] == first
-        same &= self._lengths[place] == length
-        same &= self._last[place] == last
-        found = self._codes[place]
-        found[~same] = -1
+        place = self._table.take(self._buckets(first, last, length)).astype(np.intp)
+        same = self._first.take(place) == first
+        same &= self._lengths.take(place) == length
+        same &= self._last.take(place) == last
+        found: Array = self._codes.take(place)
+        if not bool(same.all()):
+            found[~same] = -1
         return found
 
     def _buckets(self, first: Array, last: Array, length: Array) -> Array:
         mixed = last >> U(3)
         mixed ^= first
         mixed ^= last << U(7)
-        mixed ^= length.astype(U)
+        mixed ^= length.view(U)
         mixed *= U(self._multiplier)
         mixed >>= U(64 - self._bits)
         return mixed.view(np.int64)
@@ -108,11 +89,11 @@ class Names:
             self.texts.append(name)
         return code
 
-    def _learn(self, part: Array, start: Array, length: Array) -> bool:
+    def _learn(self, data: Array, start: Array, length: Array) -> bool:
         """Take names into the table; whether it has any more than before."""
         before = len(self._listed)
         for at, size in zip(start.tolist(), length.tolist(), strict=True):
-            name = part[at : at + size].tobytes()
+            name = data[at : at + size].tobytes()
             key = (size, name[:8], name[-8:])
             if key not in self._keys and len(self._listed) < self._ROOM:
                 self._keys.add(key)
@@ -122,10 +103,10 @@ class Names:
         return len(self._listed) > before
 
     def _one_by_one(
-        self, part: Array, start: Array, length: Array, found: Array, unknown: Array
+        self, data: Array, start: Array, length: Array, found: Array, unknown: Array
     ) -> Array:
         codes = [
-            self._code(part[at : at + size].tobytes())
+            self._code(data[at : at + size].tobytes())
             for at, size in zip(start[unknown].tolist(), length[unknown].tolist(), strict=True)
         ]
         if len(self.texts) > 32_000:
@@ -138,7 +119,7 @@ class Names:
         self._names = names
         codes = np.array(self._listed or [-1], np.int32)
         self._codes = codes.astype(np.int16) if codes.max() < 32_000 else codes
-        self._lengths = np.array([len(name) for name in names], np.int32)
+        self._lengths = np.array([len(name) for name in names], np.int64)
         self._first = self._words(0)
         self._last = np.array(
             [int.from_bytes(name[-8:], "little") if len(name) > 8 else 0 for name in names],
@@ -165,7 +146,7 @@ class Names:
         return np.array([int.from_bytes(part, "little") for part in parts], dtype=U)
 
     def _check_middles(
-        self, view: Array, start: Array, length: Array, found: Array, rows: Array
+        self, words: Words, start: Array, length: Array, found: Array, rows: Array
     ) -> None:
         """Take back what was found where the middles of names longer than two words differ."""
         if not len(rows):
@@ -176,8 +157,8 @@ class Names:
         place = place[codes]
         for offset in range(8, int(length.max()) - 8, 8):
             here = np.flatnonzero((length > offset + 8) & (codes >= 0))
-            words = self._words(offset)[place[here]]
-            found[rows[here[view[start[here] + offset] != words]]] = -1
+            middles = self._words(offset)[place[here]]
+            found[rows[here[words.at(start[here] + offset) != middles]]] = -1
 
 
 _STEP, _SHIFT = 6364136223846793005, 1442695040888963407

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.columns.index import Index
-from colladaphy.columns.names import NotPlain, word_view, words_at
+from colladaphy.columns.names import NotPlain
 from colladaphy.columns.texts import Ranges
 
 __all__ = ["codes_by_name"]
@@ -72,7 +72,7 @@ def _declarations(index: Index) -> _Declarations:
     names, values, rows = _attributes(index)
     if not len(rows):
         return _Declarations(rows, rows, [], [])
-    texts = _different(Ranges(index.bytes, names.starts, values.stops))
+    texts = _different(Ranges(index.words, names.starts, values.stops))
     prefixes, uris = [], []
     for text in texts[1]:
         name, _, uri = text.partition(b'="')
@@ -108,15 +108,14 @@ def _attributes(index: Index) -> tuple[Ranges, Ranges, Array]:
         if not len(more):
             break
         start[more] += 1
-    view = word_view(data)
-    same = (words_at(view, start) & np.uint64(_FIVE)) == np.uint64(_XMLNS)
+    same = (index.words.at(start) & np.uint64(_FIVE)) == np.uint64(_XMLNS)
     after = data[start + 5]
     same &= (after == _COLON) | (after == _EQUALS)
     places, start = candidates[same], start[same]
     rows = index.attributed[np.searchsorted(index.first_quote, places * 2, side="right") - 1]
     return (
-        Ranges(data, start, opens[places] - 1),
-        Ranges(data, opens[places] + 1, closes[places]),
+        Ranges(index.words, start, opens[places] - 1),
+        Ranges(index.words, opens[places] + 1, closes[places]),
         rows,
     )
 

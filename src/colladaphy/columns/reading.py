@@ -10,7 +10,6 @@ from lxml import etree
 from numpy.typing import NDArray
 
 from colladaphy.columns.index import BLOCK, Index, NotPlain
-from colladaphy.columns.names import LOW, word_view, words_at
 from colladaphy.columns.namespaces import codes_by_name
 from colladaphy.columns.places import Place, Places
 from colladaphy.columns.plain import Tree, plain, serialised
@@ -25,6 +24,7 @@ from colladaphy.columns.texts import (
     strings_of,
     words_of,
 )
+from colladaphy.columns.words import LOW, Words
 from colladaphy_schema.rows import Child, Column, Lists, Masked, Rows
 
 __all__ = ["Document"]
@@ -202,6 +202,14 @@ class Document:
             row += 1
         return self._texts(np.array(kept, np.int32)).texts()
 
+    def has_foreign_children(self, rows: Rows, namespace: str) -> bool:
+        """Whether elements have children that are not of a namespace (given in braces)."""
+        assert rows.ordinals is not None
+        ours = [code for name, codes in self._codes.items() if name.startswith(namespace)
+                for code in codes]  # fmt: skip
+        others = np.flatnonzero(~np.isin(self.index.codes, ours))
+        return bool(np.any(np.isin(self.index.parent[others], rows.ordinals)))
+
     def codes_of(self, tag: str) -> tuple[int, ...]:
         """The codes of a qualified name in the index."""
         return self._codes.get(tag, ())
@@ -301,7 +309,9 @@ class Document:
         blank = self._empty(ranges) if empty else None
         if blank is not None and bool(blank.any()):
             one = np.frombuffer(empty.encode(), np.uint8)
-            default = self._values(Ranges(one, np.array([0]), np.array([len(one)])), column, "")
+            default = self._values(
+                Ranges(Words(one), np.array([0]), np.array([len(one)])), column, ""
+            )
             values = np.repeat(default, len(ranges), axis=0)
             full = np.flatnonzero(~blank)
             values[full] = self._values(ranges.take(full), column, "")
@@ -374,7 +384,7 @@ class Document:
     def _texts(self, elements: Array) -> Ranges:
         """What stands in elements of simple content."""
         index = self.index
-        return Ranges(index.bytes, index.stop[elements] + 1, index.text_end[elements])
+        return Ranges(index.words, index.stop[elements] + 1, index.text_end[elements])
 
     def ranges(self, rows: Rows, name: str) -> tuple[Array | None, Ranges]:
         """Where the values of an attribute stand: the rows that have one (None: all), the bytes."""
@@ -408,24 +418,24 @@ class Document:
             stop[here] = places[first[here] + pair + 1]
         found = start >= 0
         if bool(found.all()):
-            return None, Ranges(index.bytes, start, stop)
+            return None, Ranges(index.words, start, stop)
         there = np.flatnonzero(found)
-        return there, Ranges(index.bytes, start[there], stop[there])
+        return there, Ranges(index.words, start[there], stop[there])
 
     def _ends_with(self, ends: Array, key: bytes) -> Array:
         """Whether a key, with a blank before it, ends at each place."""
-        view = word_view(self.index.bytes)
+        every = self.index.words
         # The blank before the key and seven bytes of it, then the rest.
         start = ends - len(key) - 1
         same = start > 0
         start = np.maximum(start, 0)
-        words = words_at(view, start)
+        words = every.at(start)
         same &= (words & _FIRST) <= _BLANK
         first = key[:7]
         words >>= _BYTE
         same &= (words & LOW[len(first)]) == U(int.from_bytes(first, "little"))
         for place in range(7, len(key), 8):
             part = key[place : place + 8]
-            words = words_at(view, start + (place + 1)) & LOW[len(part)]
+            words = every.at(start + (place + 1)) & LOW[len(part)]
             same &= words == U(int.from_bytes(part, "little"))
         return np.asarray(same)

@@ -16,7 +16,7 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
-from colladaphy.columns.names import LOW, word_view, words_at
+from colladaphy.columns.words import LOW, Words
 
 __all__ = [
     "Ranges",
@@ -45,10 +45,10 @@ _BLANK_BYTES = b" \t\n\r"
 class Ranges:
     """Ranges of the bytes of a document, one a text."""
 
-    __slots__ = ("data", "starts", "stops")
+    __slots__ = ("all_words", "starts", "stops")
 
-    def __init__(self, data: Array, starts: Array, stops: Array) -> None:
-        self.data = data
+    def __init__(self, words: Words, starts: Array, stops: Array) -> None:
+        self.all_words = words
         self.starts = starts
         self.stops = stops
 
@@ -57,15 +57,15 @@ class Ranges:
 
     def part(self, begin: int, end: int) -> Ranges:
         """Some of them, one after the other."""
-        return Ranges(self.data, self.starts[begin:end], self.stops[begin:end])
+        return Ranges(self.all_words, self.starts[begin:end], self.stops[begin:end])
 
     def take(self, rows: Array) -> Ranges:
         """Those of some rows."""
-        return Ranges(self.data, self.starts[rows], self.stops[rows])
+        return Ranges(self.all_words, self.starts[rows], self.stops[rows])
 
     def texts(self) -> list[bytes]:
         """The bytes of each, one by one."""
-        data = self.data.data
+        data = self.all_words.data.data
         return [
             bytes(data[start:stop])
             for start, stop in zip(self.starts.tolist(), self.stops.tolist(), strict=True)
@@ -81,14 +81,13 @@ class Ranges:
         if longest > _WIDEST and longest * len(lengths) > 4 * int(lengths.sum()) + 4096:
             return None
         count = (longest + extra + 7) // 8
-        view = word_view(self.data)
         words = np.zeros((len(lengths), count), U)
-        starts = self.starts.astype(np.intp)
+        starts = self.starts.astype(np.int64, copy=False)
         if not len(starts) or not longest:
             return words, lengths
         shortest = int(lengths.min())
         for place in range(0, longest, 8):
-            word = words_at(view, starts + place if place else starts)
+            word = self.all_words.at(starts + place if place else starts)
             if shortest < place + 8:
                 word &= LOW[np.clip(lengths - place, 0, 8)]
             words[:, place >> 3] = word
@@ -149,11 +148,10 @@ def are_same(some: Ranges, others: Ranges) -> Array:
     same = (some.stops - some.starts) == (others.stops - others.starts)
     lengths = some.stops - some.starts
     longest = int(lengths[same].max(initial=0))
-    first, second = word_view(some.data), word_view(others.data)
     for place in range(0, longest, 8):
         rows = np.flatnonzero(same & (lengths > place))
-        one = words_at(first, some.starts[rows] + place)
-        one ^= words_at(second, others.starts[rows] + place)
+        one = some.all_words.at(some.starts[rows] + place)
+        one ^= others.all_words.at(others.starts[rows] + place)
         one &= LOW[np.minimum(lengths[rows] - place, 8)]
         same[rows[one != 0]] = False
     return np.asarray(same)
