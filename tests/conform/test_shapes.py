@@ -188,11 +188,22 @@ def test_a_body_without_a_shape_gets_the_geometry_of_its_node() -> None:
     assert "#g" in findings[0].message
 
 
-def test_a_body_without_anything_to_show_gets_a_marked_point() -> None:
-    root, findings = mended(physics("<mass>3</mass>"))
-    assert words(root, "sphere/radius") == ["0"]
-    assert "assumed" in kept(root)
-    assert [f.code for f in findings] == ["repair-missing-shape"]
+def test_a_body_without_anything_to_show_gets_a_marked_hull_of_nothing() -> None:
+    bodies = "".join(
+        f'<rigid_body sid="b{i}"><technique_common><mass>3</mass></technique_common></rigid_body>'
+        for i in (1, 2)
+    )
+    root, findings = mended(physics(bodies=bodies))
+    assert list(root.iter(C + "sphere")) == []
+    (geometry,) = root.iter(C + "geometry")
+    assert [len(hull) for hull in geometry.iterchildren(C + "convex_mesh")] == [0]
+    shapes = list(root.iter(C + "shape"))
+    assert [shape.find(C + "instance_geometry").get("url") for shape in shapes] == [
+        f"#{geometry.get('id')}"
+    ] * 2
+    assumed = root.findall(".//{urn:colladaphy:conform:1}assumed")
+    assert [mark.get("from") for mark in assumed] == ["nothing", "nothing"]
+    assert [f.code for f in findings] == ["repair-missing-shape"] * 2
 
 
 def test_a_geometry_without_content_stays_referable() -> None:

@@ -38,7 +38,7 @@ def assumed_element(
         return context.make("color", " ".join("0001"[:count])), "black"
     if name == "shape":
         why = (
-            "nothing says what shape the body has; a sphere of radius 0, marked as assumed, stands"
+            "nothing says what shape the body has; an empty hull, marked as assumed, stands for it"
         )
         return assumed_shape(context), why
     if name in ("translate", "rotate", "channel", "sampler", "link"):

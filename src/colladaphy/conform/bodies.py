@@ -22,6 +22,7 @@ __all__ = [
     "wrap_bare_instances",
 ]
 
+_NOTHING = "no-geometry"
 _MESHES = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 
 
@@ -89,10 +90,10 @@ def complete_constraints(context: Context) -> None:
 
 
 def give_shapes(context: Context) -> None:
-    """A body without a shape gets the geometry of its visual node, or a shape without extent.
+    """A body without a shape gets the geometry of its visual node, or an empty hull.
 
-    Both are marked as assumed: a shape without extent only makes the document valid, and readers
-    are to take the body for one without a shape.
+    Both are marked as assumed: the hull of nothing only makes the document valid, and readers are
+    to take the body for one without a shape, with its mass and inertia.
     """
     targets = body_targets(context)
     linked = set(targets.values())
@@ -123,7 +124,7 @@ def give_shapes(context: Context) -> None:
             append(common, assumed_shape(context))
             message = (
                 f"rigid_body {body.get('sid')!r} had no shape and its node shows no geometry; "
-                "a sphere of radius 0, marked as assumed, stands for it"
+                "an empty hull, marked as assumed, stands for it"
             )
         context.note(rules.MISSING_SHAPE, body, message)
 
@@ -135,21 +136,26 @@ def _has_geometry(shape: etree._Element) -> bool:
 def assumed_shape(
     context: Context, url: str | None = None, matrix: np.ndarray | None = None
 ) -> etree._Element:
-    """A shape marked as assumed: the geometry of this url at this place, or one without extent."""
+    """A shape marked as assumed: the geometry of this url at this place, or an empty hull."""
     shape = context.make("shape")
-    if url is None:
-        sphere = context.make("sphere")
-        sphere.append(context.make("radius", "0"))
-        shape.append(sphere)
-    else:
-        shape.append(context.make("instance_geometry", url=url))
-        shape.extend(place_elements(context, np.eye(4) if matrix is None else matrix))
+    shape.append(context.make("instance_geometry", url=_nothing(context) if url is None else url))
+    shape.extend(place_elements(context, np.eye(4) if matrix is None else matrix))
     extra, technique = context.make("extra"), context.make("technique", profile="colladaphy")
     assumed = etree.SubElement(technique, f"{{{CONFORM}}}assumed", nsmap=OWN_MAP)
     assumed.set("from", "nothing" if url is None else "visual")
     extra.append(technique)
     shape.append(extra)
     return shape
+
+
+def _nothing(context: Context) -> str:
+    """The url of a geometry without any points: the convex hull of nothing."""
+    if context.nothing is None:
+        geometry = context.make("geometry", id=context.new_id(_NOTHING))
+        geometry.append(context.make("convex_mesh"))
+        append(context.library("geometries"), geometry)
+        context.ids[geometry.get("id", "")] = context.nothing = geometry
+    return f"#{context.nothing.get('id')}"
 
 
 def body_targets(context: Context) -> dict[etree._Element, etree._Element]:

@@ -69,6 +69,8 @@ class Context:
         self.far_lines: dict[etree._Element, int] = {}
         self.unplaced: set[etree._Element] = set()
         """Frames of mass that were made and do not say yet where they are."""
+        self.nothing: etree._Element | None = None
+        """The geometry without points that stands for none, once it is needed."""
         self.digits = 0
         """Significant digits of the values that were converted, as the file has them."""
         self._only = None if only is None else frozenset(only)

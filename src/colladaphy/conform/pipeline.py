@@ -34,6 +34,7 @@ from colladaphy.conform.placing import split_matrices
 from colladaphy.conform.profiles import mend_profiles
 from colladaphy.conform.scaled_nodes import apply_scales
 from colladaphy.conform.versions import copy_as_1_5, detect_version, note_version
+from colladaphy.conform.windings import mend_windings
 from colladaphy.findings import Finding
 from colladaphy.gate import is_valid_text
 
@@ -169,4 +170,5 @@ def _run(context: Context, twin: etree._ElementTree, version: str, convention: s
             step(context)
     set_aside_dangling(context)
     apply_scales(context)
+    mend_windings(context)
     inertias.place_mass_frames(context)

@@ -213,6 +213,12 @@ MISSING_SHAPE = Rule(
     "a rigid body had no shape",
     "the shape is assumed and marked so; give the body one at its source",
 )
+WINDING = Rule(
+    "repair-winding",
+    _WARNING,
+    "the faces of a closed mesh were wound both ways",
+    "faces run counter-clockwise, seen from outside",
+)
 # Bodies and constraints.
 MISSING_SID = Rule(
     "repair-missing-sid",
