@@ -116,10 +116,8 @@ def test_kinds_without_numbers_stand_in_the_order_of_the_schema() -> None:
 orders = st.lists(st.tuples(st.integers(0, 4), st.booleans()), max_size=14)
 
 
-@given(orders, st.integers(1, 40), st.data())
-def test_any_order_of_two_kinds(
-    items: list[tuple[int, bool]], heavy: int, data: st.DataObject
-) -> None:
+@given(orders, st.integers(1, 40))
+def test_any_order_of_two_kinds(items: list[tuple[int, bool]], heavy: int) -> None:
     """Every mixture, in blocks of any size."""
     items = sorted(items, key=lambda item: item[0])
     rows, nodes = scene(5)

@@ -231,6 +231,8 @@ class Repeated(Part):
     def stream(self, row: int) -> Iterator[str]:
         """The records of one record: runs of one kind in blocks, short ones together."""
         first, last = np.searchsorted(self._owner, (row, row + 1)).tolist()
+        if first == last:
+            return
         if self._kind is None:
             yield from self.kinds[0][0].stream(first, last)
             return

@@ -16,16 +16,12 @@ from colladaphy.columns.plain import Tree, plain, serialised
 from colladaphy.columns.texts import (
     Ranges,
     are_same,
-    boolean_lists_of,
-    booleans_of,
     factors_of,
-    floats_of,
-    integers_of,
     strings_of,
-    words_of,
 )
-from colladaphy.columns.words import LOW, Words
-from colladaphy_schema.rows import Child, Column, Lists, Masked, Rows
+from colladaphy.columns.values import Spelling, column_of
+from colladaphy.columns.words import LOW
+from colladaphy_schema.rows import Child, Column, Rows
 
 __all__ = ["Document"]
 
@@ -36,8 +32,6 @@ U = np.uint64
 _TECHNIQUE = "{http://www.collada.org/2008/03/COLLADASchema}technique"
 _EXTRA = "{http://www.collada.org/2008/03/COLLADASchema}extra"
 _FIRST, _BLANK, _BYTE = U(0xFF), U(32), U(8)
-_READERS = {"float": floats_of, "integer": integers_of, "boolean": boolean_lists_of}
-_FILLERS = {"float": np.nan, "integer": 0, "boolean": False}
 
 
 class Document:
@@ -266,37 +260,21 @@ class Document:
 
     def column(self, rows: Rows, column: Column[Any]) -> Any:
         """The values of a column (see `colladaphy_schema.rows.Source`)."""
-        count = len(rows)
         empty = column.empty
-        attribute = column.form == "attribute"
-        if attribute:
+        there: Array | None = None
+        if column.form == "attribute":
             there, ranges = self._attribute(rows, column.tag)
         elif column.form == "element":
-            found, owner = self._below(rows, column.tag)
-            there = owner
+            found, there = self._below(rows, column.tag)
             ranges = self._texts(found)
         else:
             assert rows.ordinals is not None
-            there, ranges = None, self._texts(rows.ordinals)
+            ranges = self._texts(rows.ordinals)
             empty = rows.empty_text
-        whole = there is None or len(there) == count
-        if column.kind not in _FILLERS:
-            return self._strings(ranges, column, there, whole, count, empty, attribute)
-        if column.tokens and column.width is None:
-            return self._lists(ranges, column, there, whole, count)
-        values = self._values(ranges, column, empty)
-        if whole:
-            present = np.ones(count, np.bool_) if column.optional else None
-        else:
-            assert there is not None
-            shape = (count, *values.shape[1:])
-            filler = _FILLERS[column.kind] if column.default is None else column.default
-            filled = np.full(shape, filler, dtype=values.dtype)
-            filled[there] = values
-            values = filled
-            present = np.zeros(count, np.bool_)
-            present[there] = True
-        return Masked(values, present) if column.optional and present is not None else values
+        if there is not None and len(there) == len(rows):
+            there = None
+        spelling = Spelling(empty, entities=self._entities, blanked=self._blanked)
+        return column_of(ranges, column, there, len(rows), spelling)
 
     def stated(self, rows: Rows, column: Column[Any]) -> Array:
         """Where the attribute of a column is there (n,)."""
@@ -304,82 +282,6 @@ class Document:
         found = np.zeros(len(rows), np.bool_)
         found[slice(None) if there is None else there] = True
         return found
-
-    def _values(self, ranges: Ranges, column: Column[Any], empty: str) -> Array:
-        blank = self._empty(ranges) if empty else None
-        if blank is not None and bool(blank.any()):
-            one = np.frombuffer(empty.encode(), np.uint8)
-            default = self._values(
-                Ranges(Words(one), np.array([0]), np.array([len(one)])), column, ""
-            )
-            values = np.repeat(default, len(ranges), axis=0)
-            full = np.flatnonzero(~blank)
-            values[full] = self._values(ranges.take(full), column, "")
-            return values
-        if column.kind == "boolean" and not column.tokens:
-            return booleans_of(ranges)
-        width = 1 if column.width is None else column.width
-        values, counts = _READERS[column.kind](ranges, width)
-        if column.width is None:
-            if len(values) != len(ranges):
-                raise ValueError(f"there are {len(values)} numbers in {len(ranges)} texts")
-            return values
-        if len(values) != column.width * len(ranges) or (
-            counts is not None and bool(np.any(counts != column.width))
-        ):
-            raise ValueError(f"lists of <{column.name}> have not {column.width} numbers each")
-        return values.reshape(len(ranges), column.width)
-
-    def _empty(self, ranges: Ranges) -> Array:
-        """Which texts have nothing in them, but for comments."""
-        empty = ranges.stops <= ranges.starts
-        if self._blanked:
-            rows = np.flatnonzero(~empty)
-            empty[rows] = [not text.strip(b"\0") for text in ranges.take(rows).texts()]
-        return np.asarray(empty)
-
-    def _lists(
-        self, ranges: Ranges, column: Column[Any], there: Array | None, whole: bool, count: int
-    ) -> Lists:
-        values, counts = _READERS[column.kind](ranges, None)
-        if counts is None:
-            each = len(values) // max(len(ranges), 1)
-            counts = np.full(len(ranges), each, np.int64)
-        present = None
-        if not whole:
-            assert there is not None
-            spread = np.zeros(count, np.int64)
-            spread[there] = counts
-            counts = spread
-            present = np.zeros(count, np.bool_)
-            present[there] = True
-        return Lists(values, np.concatenate([[0], np.cumsum(counts)]), present)
-
-    def _strings(
-        self,
-        ranges: Ranges,
-        column: Column[Any],
-        there: Array | None,
-        whole: bool,
-        count: int,
-        empty: str,
-        attribute: bool,
-    ) -> list[Any]:
-        texts: list[Any] = strings_of(
-            ranges, column.kind, attribute=attribute, entities=self._entities
-        )
-        if empty:
-            texts = [text or empty for text in texts]
-        if column.tokens:
-            texts = [words_of(text) for text in texts]
-        if whole:
-            return texts
-        assert there is not None
-        default = list(column.default) if column.tokens and column.default == () else column.default
-        spread = [default] * count
-        for row, text in zip(there.tolist(), texts, strict=True):
-            spread[row] = text
-        return spread
 
     def _texts(self, elements: Array) -> Ranges:
         """What stands in elements of simple content."""
