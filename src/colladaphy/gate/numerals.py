@@ -15,13 +15,24 @@ from lxml import etree
 from colladaphy.findings import Finding
 from colladaphy.gate.faults import gate
 
-__all__ = ["incomplete_numbers"]
+__all__ = ["incomplete_numbers", "may_hold_incomplete_numbers"]
 
-_IN_BYTES = re.compile(rb"[0-9.]\0?[eE]\0?[+-]?\0?[\s<\"']")
+# References, comments and CDATA may stand on either side.
+_IN_BYTES = re.compile(rb"[0-9.;>\[]\0?[eE]\0?[+-]?\0?[\s<\"'&\]]")
+_LONG = 1 << 16
 _NUMBER = re.compile(r"(?<!\S)([+-]?[0-9.]+[eE][+-]?)(?!\S)")
 # Makes a number invalid, and leaves names, URIs and free text as valid as they were.
 _SPOILT = r"\1_"
 _MARK = re.compile(r"([0-9.][eE][+-]?)_")
+
+
+def may_hold_incomplete_numbers(data: bytes) -> bool:
+    """False where the bytes of a document hold no such number."""
+    if len(data) < _LONG:
+        return _IN_BYTES.search(data) is not None
+    from colladaphy.gate.exponents import exponents
+
+    return any(_IN_BYTES.match(data, place) is not None for place in exponents(data))
 
 
 def incomplete_numbers(tree: etree._ElementTree, data: bytes) -> list[Finding]:
@@ -29,9 +40,10 @@ def incomplete_numbers(tree: etree._ElementTree, data: bytes) -> list[Finding]:
 
     Which texts are numbers is for the schema to say: a copy in which they are spoilt is validated.
     """
-    if _IN_BYTES.search(data) is None:
+    if not may_hold_incomplete_numbers(data):
         return []
     copy = deepcopy(tree)
+    etree.strip_tags(copy, etree.Comment, etree.ProcessingInstruction)
     spoilt = False
     for element in copy.iter(etree.Element):
         if element.text and _NUMBER.search(element.text):

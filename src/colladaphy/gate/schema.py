@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from lxml import etree
 
-__all__ = ["PE", "compiled", "profile_elements", "schema_folder"]
+__all__ = ["PE", "compiled", "profile_elements", "schema_folder", "wrapped"]
 
 PE = "urn:colladaphy:pe:1"
 _XS = "{http://www.w3.org/2001/XMLSchema}"
@@ -27,6 +28,40 @@ def compiled() -> etree.XMLSchema:
     """The schema as libxml2 holds it; the gate only, as a run leaves its log there."""
     parser = etree.XMLParser(no_network=True, load_dtd=False, resolve_entities=False)
     return etree.XMLSchema(etree.parse(schema_folder() / "document.xsd", parser))
+
+
+@cache
+def wrapped(open_content: str) -> etree.XMLSchema:
+    """The schema of a document within an element `document` of COLLADA's namespace.
+
+    The content of techniques is ``lax``, or ``strict``: they may hold known elements only. What
+    passes that has no element of the pe profile that there is not (content of MathML stays open).
+    COLLADA's files are made one, as libxml2 can include only files.
+    """
+    parser = etree.XMLParser(no_network=True, load_dtd=False, resolve_entities=False)
+    main = schema_folder() / "collada-1.5" / "collada.xsd"
+    areas = [etree.parse(path, parser).getroot() for path in sorted(main.parent.glob("*.xsd"))]
+    names: dict[Any, str] = {}
+    for area in areas:
+        names |= area.nsmap
+    root = etree.Element(f"{_XS}schema", dict(areas[0].attrib), nsmap=names)
+    root.getroottree().docinfo.URL = str(main)
+    imports = {PE: root.makeelement(f"{_XS}import", namespace=PE)}
+    imports[PE].set("schemaLocation", "../pe-profile.xsd")
+    for area in areas:
+        for child in area.iterchildren(etree.Element):
+            if child.tag == f"{_XS}import":
+                imports.setdefault(child.get("namespace", ""), child)
+            elif child.tag != f"{_XS}include":
+                root.append(child)
+    for imported in imports.values():
+        root.insert(0, imported)
+    for wildcard in root.iter(f"{_XS}any"):
+        wildcard.set("processContents", open_content)
+    wrapper = etree.SubElement(root, f"{_XS}element", name="document")
+    content = etree.SubElement(etree.SubElement(wrapper, f"{_XS}complexType"), f"{_XS}sequence")
+    etree.SubElement(content, f"{_XS}element", ref="COLLADA")
+    return etree.XMLSchema(root)
 
 
 @cache

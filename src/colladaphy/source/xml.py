@@ -11,7 +11,7 @@ from colladaphy.findings import Finding, Rule
 from colladaphy.source import rules
 from colladaphy.source.limits import LIBXML2_DEPTH, LIBXML2_DEPTH_MAX, LIBXML2_TEXT, Limits
 
-__all__ = ["COLLADA_1_4", "COLLADA_1_5", "parse_bytes", "root_start"]
+__all__ = ["COLLADA_1_4", "COLLADA_1_5", "element_count", "parse_bytes", "root_start"]
 
 COLLADA_1_4 = "http://www.collada.org/2005/11/COLLADASchema"
 COLLADA_1_5 = "http://www.collada.org/2008/03/COLLADASchema"
@@ -95,11 +95,7 @@ def _check_head(data: bytes, file: str | None, limits: Limits) -> None:
         line = head.count("\n", 0, doctype) + 1
         column = doctype - (head.rfind("\n", 0, doctype) + 1) + 1
         raise XmlError(rules.DOCTYPE.at(file=file, line=line, column=column))
-    if len(data) <= limits.elements * _SHORTEST:
-        return
-    count = data.count(b"<") - data.count(b"</")
-    if data.startswith(_UTF16):
-        count -= data.count(b"<\0/") if data[0] == 0xFF else data.count(b"<\0/\0")
+    count = element_count(data, limits)
     if count > limits.elements:
         raise XmlError(
             rules.TOO_MANY_ELEMENTS.at(
@@ -107,6 +103,16 @@ def _check_head(data: bytes, file: str | None, limits: Limits) -> None:
                 file=file,
             )
         )
+
+
+def element_count(data: bytes, limits: Limits) -> int:
+    """About how many elements, comments and instructions there are; 0 if surely few enough."""
+    if len(data) <= limits.elements * _SHORTEST:
+        return 0
+    count = data.count(b"<") - data.count(b"</")
+    if data.startswith(_UTF16):
+        count -= data.count(b"<\0/") if data[0] == 0xFF else data.count(b"<\0/\0")
+    return count
 
 
 def _prolog(data: bytes) -> str:
