@@ -312,3 +312,17 @@ def test_many_records_are_written_as_few_are() -> None:
     tree = parsed(rows)
     found = [float(word) for e in tree.iter(C + "translate") for word in (e.text or "").split()]
     assert np.array_equal(np.array(found).reshape(-1, 3), values)
+
+
+def test_many_kinds_that_alternate_in_one_record() -> None:
+    """They are too many for one block, and come in no runs."""
+    count = 9000
+    rows, nodes = scene(1)
+    owner = np.zeros(count, np.int64)
+    nodes.translate = moved = TranslateTypeRows(count, owner, order=np.arange(count) * 2)
+    moved.value = np.repeat(np.arange(count, dtype=np.float64)[:, None], 3, axis=1)
+    nodes.rotate = turned = RotateTypeRows(count, owner, order=np.arange(count) * 2 + 1)
+    turned.value = np.repeat(np.arange(count, dtype=np.float64)[:, None], 4, axis=1)
+    (node,) = parsed(rows).iter(C + "node")
+    expected = [text for number in range(count) for text in ([str(number)] * 3, [str(number)] * 4)]
+    assert [(child.text or "").split() for child in node] == expected
