@@ -7,7 +7,18 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 from lxml import etree
-from tests.conform.documents import BOX, MESH, C, codes, document, kept, mended, physics, words
+from tests.conform.documents import (
+    ASSET,
+    BOX,
+    MESH,
+    C,
+    codes,
+    document,
+    kept,
+    mended,
+    physics,
+    words,
+)
 
 from colladaphy.conform.frames import transform_of
 from colladaphy.conform.numerals import plain_numbers, spelled_number
@@ -108,6 +119,13 @@ def test_decimal_commas_come_before_what_counts_numbers() -> None:
     assert words(root, "sphere/radius") == ["1.5"]
     assert words(root, "capsule/radius") == ["0.5", "0.5", "0.5"]
     assert words(root, "mass_frame/translate") == ["0.5", "0", "0"]
+
+
+def test_decimal_commas_in_attributes() -> None:
+    asset = ASSET.replace("</asset>", '<unit name="inch" meter="0,0254"/></asset>')
+    root, findings = mended(document("", asset=asset))
+    assert next(root.iter(C + "unit")).get("meter") == "0.0254"
+    assert codes(findings) == {"repair-decimal-comma"}
 
 
 def test_the_count_of_an_array_says_what_its_commas_are() -> None:

@@ -24,7 +24,7 @@ def document(content: str, name: str = "") -> bytes:
 
 def test_undeclared_prefixes_are_refused_unless_mended() -> None:
     data = document("<pe:world>\n<pe:uid>1</pe:uid></pe:world>")
-    with pytest.raises(XmlError):
+    with pytest.raises(XmlError, match="read the file with repair"):
         parse(data)
     parsed = parse(data, mend=True)
     world = parsed.tree.getroot().find(f".//{PE}world")

@@ -16,8 +16,10 @@ References of the result have one form each:
 Content that conform made up or moved is marked in the namespace ``urn:colladaphy:conform:1``:
 ``moved``, ``text``, ``value`` and ``attribute`` hold what had no place, ``assumed`` marks a shape
 that the file did not give (``from="visual"``: it is the geometry that the body's node shows;
-``from="nothing"``: it is the hull of nothing, and only makes the document valid), and ``convention`` in an extra of the
-document says whose meaning was translated, so that nothing is translated twice.
+``from="nothing"``: it is the hull of nothing, and only makes the document valid), and
+``convention`` in an extra of the document says whose meaning was translated, so that nothing is
+translated twice. Its ``digits`` are the significant digits that converted values had in the file:
+what is compared with them is to be compared no more exactly.
 """
 
 from __future__ import annotations

@@ -30,6 +30,7 @@ _DOCUMENT_END = 5
 _TAG_NOT_FINISHED = 77
 _ENCODING_CODES = frozenset({31, 32, 79, 81})
 _RESOURCE_LIMIT = 114
+_UNDECLARED = 201
 _TOO_LONG = re.compile(r"too (?:big|long)|size limit|length limit", re.IGNORECASE)
 _TOO_DEEP = re.compile(r"excessive depth", re.IGNORECASE)
 # What libxml2 says about markup that simply stops: an unfinished tag, attribute, comment, ...
@@ -168,6 +169,7 @@ def _translate(
         text = "a CDATA section is not closed"
     code = getattr(error, "code", 0)
     rule: Rule = rules.MALFORMED
+    hint: str | None = None
     message = f"The document is not well-formed: {text}."
     if _TOO_DEEP.search(text):
         rule = rules.TOO_DEEP
@@ -185,10 +187,12 @@ def _translate(
     elif code in _ENCODING_CODES:
         rule = rules.ENCODING
         message = f"The document's encoding is wrong: {text}."
+    elif code == _UNDECLARED:
+        hint = "Declare it with xmlns:prefix=... where it begins, or read the file with repair."
     elif code == _DOCUMENT_EMPTY:
         rule = rules.TRUNCATED
         message = "The document ends before its root element."
-    return rule.at(message=message, file=file, line=line or None, column=column or None)
+    return rule.at(message=message, file=file, line=line or None, column=column or None, hint=hint)
 
 
 def _at_end(data: bytes, line: int, column: int) -> bool:

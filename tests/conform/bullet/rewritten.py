@@ -12,6 +12,7 @@ bodies go to a model of their own. The result is not always schema-valid, as Bul
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -80,7 +81,13 @@ def rewrite(
     for element in root.iter(NS + "*"):
         if etree.QName(element).localname in _NUMBERS and not _is_foreign(element):
             element.text = " ".join(_six(float(word)) for word in (element.text or "").split())
-    return etree.tostring(root)
+    return _without_prefixes(etree.tostring(root))
+
+
+def _without_prefixes(data: bytes) -> bytes:
+    """Its DOM drops the declarations of prefixes at the root, and keeps what has the prefixes."""
+    end = data.index(b">", data.index(b"<COLLADA"))
+    return re.sub(rb' xmlns:[^=]+="[^"]*"', b"", data[:end]) + data[end:]
 
 
 def _six(value: float) -> str:

@@ -77,3 +77,13 @@ def test_new_bodies_have_a_model_of_their_own(export: Export) -> None:
     material = root.find(f".//{NS}physics_material[@id='BulletUnnamed-0-PhysicsMaterial']")
     assert material is not None
     assert material.findtext(f".//{NS}static_friction") == "0.25"
+
+
+def test_what_is_written_for_bullet_has_no_prefix_at_its_root(export: Export) -> None:
+    """Bullet drops the declarations there; those where a profile begins come through."""
+    profile = '<technique profile="pe"><pe:body uid="1"/></technique>'
+    data = document(bodies=body(after=profile)).replace(
+        b"<COLLADA ", b'<COLLADA xmlns:pe="urn:colladaphy:pe:1" '
+    )
+    saved = rewrite(export(data)[0])
+    assert etree.fromstring(saved).find(".//{urn:colladaphy:pe:1}body") is not None
