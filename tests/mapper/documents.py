@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from colladaphy.mapper.markup import COLLADA, PE
+from colladaphy.links.names import COLLADA, PE
 
 __all__ = ["body", "collada", "instance", "model", "scene"]
 

@@ -288,7 +288,7 @@ def test_nodes_in_a_circle_are_refused() -> None:
 
 
 def test_exponential_nesting_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    from colladaphy.mapper import instances as module
+    from colladaphy.mapper.loading import instances as module
 
     monkeypatch.setattr(module, "_MOST_INSTANCES", 1000)
     twice = "".join(

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from tests.mapper.documents import body, collada, instance, model, scene
 
 import colladaphy
-from colladaphy.mapper.creation import free_ids
+from colladaphy.mapper.loading.creation import free_ids
 from colladaphy.world import World, compare, rotations
 
 

@@ -10,7 +10,7 @@ import pytest
 
 import colladaphy
 from colladaphy.mapper import WriteOptions
-from colladaphy.mapper.staleness import Precision, significant_digits
+from colladaphy.mapper.loading.sameness import Sameness, significant_digits
 from colladaphy.world import World, compare
 
 NUMBER = re.compile(rb"(?<=[> ])-?\d+\.\d+(?:e[-+]?\d+)?(?=[< ])")
@@ -185,13 +185,20 @@ def test_common_profile_alone_is_close() -> None:
 
 
 def test_significant_digits() -> None:
-    words = {"1": 1, "100": 1, "1.0": 2, "0.001": 1, "-12.50": 4, "1.25e-7": 3, "0": 0}
+    words = {b"1": 1, b"100": 1, b"1.0": 2, b"0.001": 1, b"-12.50": 4, b"1.25e-7": 3, b"0": 0}
     assert {word: significant_digits(word) for word in words} == words
 
 
-def test_precision_has_six_digits_at_least() -> None:
-    precision = Precision(())
-    assert precision.same(0.1234565, 0.123457)
-    assert not precision.same(0.123455, 0.123457)
-    assert precision.same(float("inf"), float("inf"))
-    assert not precision.same(float("inf"), 1.0)
+def test_numbers_are_the_same_to_the_precision_of_their_record() -> None:
+    asked: list[int] = []
+
+    def measure(row: int) -> float:
+        asked.append(row)
+        return 0.5e-5
+
+    sameness = Sameness(4, measure)
+    inf = float("inf")
+    one = np.array([[0.1234565], [0.123455], [inf], [inf]])
+    other = np.array([[0.123457], [0.123457], [inf], [1.0]])
+    assert sameness.each(np.arange(4), one, other).tolist() == [True, False, True, False]
+    assert asked == [0, 1, 3]  # what is plainly the same is not measured

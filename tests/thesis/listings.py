@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from colladaphy.mapper.markup import COLLADA
+from colladaphy.links.names import COLLADA
 
 __all__ = ["LISTING_2", "listing_3", "listing_4", "listing_5"]
 

@@ -10,7 +10,7 @@ from tests.mapper.documents import SPHERE, body, collada, instance, model, scene
 from tests.thesis.listings import LISTING_2
 
 import colladaphy
-from colladaphy.document.references import split_reference
+from colladaphy.links.addresses import split_reference
 from colladaphy.world import Body, Kind, World
 
 

@@ -192,10 +192,10 @@ def test_5_4_output_is_deterministic() -> None:
 def test_5_5_references_are_not_searched_for() -> None:
     """5.5: ids that stand in libraries are found without an index of the whole document."""
     document = colladaphy.read(simple())
-    document.load()
-    assert document.index.find("m") is not None
-    assert document.index.find("n") is not None
-    assert document.index.find("nowhere") is None
+    resource = document.scenes[0].root
+    assert len(document.load().bodies) == 1
+    assert "ids" not in vars(resource)
+    assert {"m", "n"} <= resource.ids.keys() and "nowhere" not in resource.ids
 
 
 def test_5_5_materials_are_deduplicated_by_value() -> None:

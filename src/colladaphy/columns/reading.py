@@ -31,6 +31,8 @@ U = np.uint64
 
 _TECHNIQUE = "{http://www.collada.org/2008/03/COLLADASchema}technique"
 _EXTRA = "{http://www.collada.org/2008/03/COLLADASchema}extra"
+_FEW = 24
+"""Attributes of an element that are looked at one after the other."""
 _FIRST, _BLANK, _BYTE = U(0xFF), U(32), U(8)
 
 
@@ -309,15 +311,24 @@ class Document:
         stop = start.copy()
         key = name.encode()
         places = index.quote_places
-        for pair in range(0, int(count.max(initial=0)), 2):
-            here = np.flatnonzero((count > pair) & (start < 0))
-            if not len(here):
-                continue
-            opens = places[first[here] + pair].astype(np.intp)
+        todo = np.arange(len(mine))
+        for pair in range(0, min(int(count.max(initial=0)), 2 * _FEW), 2):
+            todo = todo[count[todo] > pair]
+            opens = places[first[todo] + pair].astype(np.int64)
             same = self._ends_with(opens - 1, key)
-            here, opens = here[same], opens[same]
-            start[here] = opens + 1
+            here = todo[same]
+            start[here] = opens[same] + 1
             stop[here] = places[first[here] + pair + 1]
+            todo = todo[~same]
+        todo = todo[count[todo] > 2 * _FEW]
+        if len(todo):  # all others of the few elements that have very many
+            more = (count[todo] - 2 * _FEW) // 2
+            number = np.arange(int(more.sum())) - np.repeat(np.cumsum(more) - more, more)
+            at = np.repeat(first[todo], more) + 2 * (number + _FEW)
+            same = self._ends_with(places[at].astype(np.int64) - 1, key)
+            here = np.repeat(todo, more)[same]
+            start[here] = places[at[same]] + 1
+            stop[here] = places[at[same] + 1]
         found = start >= 0
         if bool(found.all()):
             return None, Ranges(index.words, start, stop)

@@ -3,9 +3,9 @@
 import logging
 
 from colladaphy.document.api import read, write
-from colladaphy.document.document import Document, Prefer
-from colladaphy.document.references import Target
+from colladaphy.document.document import Document, Target
 from colladaphy.document.scenes import Model, Models, Scene, Scenes
+from colladaphy.mapper import Prefer
 
 # Who wants the log configures it; without that nothing is printed.
 logging.getLogger("colladaphy").addHandler(logging.NullHandler())

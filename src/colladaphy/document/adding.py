@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
-
 from lxml import etree
 
-from colladaphy.document import rules
-from colladaphy.document.names import c
 from colladaphy.errors import DocumentError, SchemaError
 from colladaphy.gate import gate
+from colladaphy.links import rules
+from colladaphy.links.names import c
+from colladaphy.mapper import WriteOptions, store
 from colladaphy.source.copying import copy_tree
-
-if TYPE_CHECKING:
-    from colladaphy.mapper import WriteOptions
-    from colladaphy.world import World
+from colladaphy.world import World
 
 __all__ = ["with_scene"]
 
@@ -31,8 +27,6 @@ def with_scene(
     All ids of the new elements begin with the scene's. Raises DocumentError where the id cannot
     be taken.
     """
-    from colladaphy.mapper import store
-
     used = set(_ids(tree.getroot()))
     if not _NAME.match(id):
         raise DocumentError(rules.SCENE_ID.at(message=f"{id!r} is not a valid id."))

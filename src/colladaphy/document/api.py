@@ -3,27 +3,21 @@
 from __future__ import annotations
 
 import logging
-from os import PathLike
-from typing import TYPE_CHECKING, BinaryIO
 
-from lxml import etree
-
+from colladaphy.conform import conform
 from colladaphy.document.document import Document
-from colladaphy.document.values import bad_numbers
+from colladaphy.document.writing import Output, document_bytes, write_world
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report, Severity
 from colladaphy.gate import gate
-from colladaphy.source import Limits, Parsed, Source, packed_for, parse, save
+from colladaphy.links.resource import Resource
+from colladaphy.mapper import WriteOptions
+from colladaphy.source import Limits, Parsed, Source, load, parse_loaded
+from colladaphy.world import World
 
-if TYPE_CHECKING:
-    from colladaphy.mapper import WriteOptions
-    from colladaphy.world import World
+__all__ = ["document_bytes", "document_of", "read", "write"]
 
-__all__ = ["document_bytes", "read", "write"]
-
-_log = logging.getLogger(__name__)
-
-Output = str | PathLike[str] | BinaryIO
+_log = logging.getLogger("colladaphy.document")
 
 
 def read(
@@ -40,19 +34,28 @@ def read(
     everything that was changed is in the document's report. Raises InputError, XmlError or
     SchemaError with all findings.
     """
-    parsed = parse(source, limits or Limits(), mend=repair)
-    return document_of(parsed, repair=repair, convention=convention, family={})
+    loaded = load(source, limits or Limits())
+    parsed = parse_loaded(loaded, mend=repair)
+    data = None if repair else loaded.data
+    return document_of(parsed, repair=repair, convention=convention, data=data)
 
 
 def document_of(
-    parsed: Parsed, *, repair: bool, convention: str, family: dict[str, Document]
+    parsed: Parsed, *, repair: bool, convention: str = "auto", data: bytes | None = None
 ) -> Document:
-    """The Document of a parsed file; see `read`. `family` are the documents open already."""
-    report = Report(parsed.file, list(parsed.findings))
+    """The Document of a parsed file, and of its bytes where nothing is changed; see `read`."""
+    resource = _resource(parsed, data, repair=repair, convention=convention, family={})
+    return Document(resource, archive=parsed.archive, member=parsed.member)
+
+
+def _resource(
+    parsed: Parsed, data: bytes | None, *, repair: bool, convention: str, family: dict[str, Resource]
+) -> Resource:
+    """One document of a family, whose members are opened when references lead there."""
+    report = Report(parsed.file)
+    report.extend(parsed.findings)
     tree = parsed.tree
     if repair:
-        from colladaphy.conform import conform
-
         tree, changes = conform(tree, file=parsed.file, convention=convention)
         report.extend(changes)
     faults = gate(tree, fresh=not repair)
@@ -61,20 +64,12 @@ def document_of(
     if any(fault.severity is Severity.ERROR for fault in faults):
         raise SchemaError(report.findings)
 
-    def opener(file: str) -> Document:
+    def opener(file: str) -> Resource:
         other = parsed.parse_relative(file)
-        return document_of(other, repair=repair, convention=convention, family=family)
+        return _resource(other, None, repair=repair, convention=convention, family=family)
 
-    return Document(
-        tree,
-        file=parsed.file,
-        report=report,
-        opener=opener,
-        family=family,
-        tolerant=repair,
-        archive=parsed.archive,
-        member=parsed.member,
-    )
+    return Resource(tree, data, file=parsed.file, report=report, opener=opener, family=family,
+                    tolerant=repair, member=parsed.member)  # fmt: skip
 
 
 def write(
@@ -87,20 +82,6 @@ def write(
     or OutputError.
     """
     if isinstance(content, Document):
-        data = packed_for(target, document_bytes(content), content.archive, content.member)
+        content.write(target)
     else:
-        from colladaphy.mapper import store
-
-        data = packed_for(target, store(content, options))
-    save(data, target)
-    _log.info("wrote %d bytes to %s", len(data), target)
-
-
-def document_bytes(document: Document) -> bytes:
-    """The document as UTF-8, checked again as it now is."""
-    tree = document.tree
-    data = etree.tostring(tree, encoding="UTF-8", xml_declaration=True)
-    faults = gate(tree) or bad_numbers(tree, data=data)
-    if faults:
-        raise SchemaError(faults)
-    return data
+        write_world(content, target, options)

@@ -6,40 +6,60 @@ Model is a physics_model together with one instance_physics_model of it.
 
 from __future__ import annotations
 
+from abc import abstractmethod
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+import numpy as np
 from lxml import etree
 
-from colladaphy.document import rules
-from colladaphy.document.names import c
-from colladaphy.document.values import schema_errors
 from colladaphy.errors import DocumentError
+from colladaphy.links import rules
+from colladaphy.links.names import c
+from colladaphy.links.pool import Pool
+from colladaphy.links.resource import Resource
+from colladaphy.world import World
+from colladaphy_schema.document_columns import ColladaSceneRows
+from colladaphy_schema.physics_columns import InstancePhysicsModelTypeRows, PhysicsSceneTypeRows
 
-if TYPE_CHECKING:
-    from colladaphy.document.document import Document
-    from colladaphy.world import World
-
-__all__ = ["Model", "Models", "Scene", "Scenes"]
+__all__ = ["Choosable", "Model", "Models", "Scene", "Scenes"]
 
 SHOWN = 10
 """How many names a message lists."""
 
 
+class Choosable:
+    """What scenes and models are chosen from, and loaded by."""
+
+    @abstractmethod
+    def load_chosen(
+        self, scenes: Iterable[Scene], models: Iterable[Model], world: World | None, **options: Any
+    ) -> World:
+        """Load models of scenes."""
+
+
 class Model:
     """One instance of a physics model in a scene."""
 
-    __slots__ = ("element", "scene")
+    __slots__ = ("_row", "_rows", "number", "scene")
 
-    def __init__(self, scene: Scene, element: etree._Element) -> None:
+    def __init__(self, scene: Scene, rows: InstancePhysicsModelTypeRows, row: int) -> None:
         self.scene = scene
-        self.element = element
+        self._rows = rows
+        self._row = row
+        assert rows.ordinals is not None
+        self.number = int(rows.ordinals[row])
+        """The number of the instance_physics_model among the elements of its document."""
+
+    @property
+    def element(self) -> etree._Element:
         """The instance_physics_model element."""
+        return self.scene.resource.element(self.number)
 
     @property
     def url(self) -> str:
         """The reference to the physics_model."""
-        return self.element.get("url", "")
+        return self._rows.url[self._row]
 
     @property
     def id(self) -> str:
@@ -49,23 +69,29 @@ class Model:
     @property
     def sid(self) -> str | None:
         """The sid of the instance."""
-        return self.element.get("sid")
+        return self._rows.sid[self._row]
 
     @property
     def name(self) -> str | None:
         """The name of the instance."""
-        return self.element.get("name")
+        return self._rows.name[self._row]
+
+    @property
+    def body_count(self) -> int:
+        """How many rigid_bodies the instance instances itself."""
+        return int(self._rows.instance_rigid_body.counts()[self._row])
+
+    @property
+    def constraint_count(self) -> int:
+        """How many rigid_constraints the instance instances itself."""
+        return int(self._rows.instance_rigid_constraint.counts()[self._row])
 
     def load(self, world: World | None = None, **options: Any) -> World:
         """Load only this model, into `world` where one is given; options as Document.load."""
-        from colladaphy.mapper import load
-
-        with schema_errors(self.scene.document):
-            return load(self.scene.document, world, models=[self], **options)
+        return self.scene.document.load_chosen([self.scene], [self], world, **options)
 
     def __repr__(self) -> str:
-        bodies = sum(1 for _ in self.element.iterchildren(c("instance_rigid_body")))
-        return f"<Model {self.id!r} of scene {self.scene.id!r}: {bodies} instanced bodies>"
+        return f"<Model {self.id!r} of scene {self.scene.id!r}: {self.body_count} instanced bodies>"
 
 
 class Models:
@@ -73,12 +99,9 @@ class Models:
 
     __slots__ = ("_models", "_scene")
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: Scene, rows: InstancePhysicsModelTypeRows) -> None:
         self._scene = scene
-        self._models = [
-            Model(scene, element)
-            for element in scene.element.iterchildren(c("instance_physics_model"))
-        ]
+        self._models = [Model(scene, rows, row) for row in range(len(rows))]
 
     def __iter__(self) -> Iterator[Model]:
         return iter(self._models)
@@ -101,33 +124,61 @@ class Models:
                 return model
         known = _listing(model.id for model in self._models)
         message = f"The scene {self._scene.id!r} has no model {key!r}; it has {known}."
-        raise DocumentError(rules.UNKNOWN_SCENE.at(message=message, file=self._scene.document.file))
+        raise DocumentError(rules.UNKNOWN_SCENE.at(message=message, file=self._scene.resource.file))
 
 
 class Scene:
     """A physics scene: gravity, a time step, and instances of models."""
 
-    __slots__ = ("_models", "document", "element", "instances")
+    __slots__ = ("_models", "_rows", "document", "instances", "number", "resource", "root")
 
     def __init__(
-        self, document: Document, element: etree._Element, instances: list[etree._Element]
+        self,
+        document: Choosable,
+        root: Resource,
+        resource: Resource,
+        rows: PhysicsSceneTypeRows,
+        instances: list[int],
     ) -> None:
         self.document = document
-        self.element = element
-        """The physics_scene element."""
+        self.root = root
+        """The document that instances the scene, as it was when the scene was looked for."""
+        self.resource = resource
+        """The document that holds the scene."""
+        self._rows = rows
+        assert rows.ordinals is not None
+        self.number = int(rows.ordinals[0])
+        """The number of the physics_scene among the elements of its document."""
         self.instances = instances
-        """The instance_physics_scene elements that refer to it."""
+        """The numbers of the instance_physics_scene elements that refer to it."""
         self._models: Models | None = None
+
+    @property
+    def element(self) -> etree._Element:
+        """The physics_scene element."""
+        return self.resource.element(self.number)
 
     @property
     def id(self) -> str | None:
         """The id of the physics_scene."""
-        return self.element.get("id")
+        return self._rows.id[0]
 
     @property
     def name(self) -> str | None:
         """The name of the physics_scene."""
-        return self.element.get("name")
+        return self._rows.name[0]
+
+    @property
+    def gravity(self) -> list[float] | None:
+        """The gravity that the scene states."""
+        gravity = self._rows.technique_common.gravity
+        return gravity.value[0].tolist() if len(gravity) else None
+
+    @property
+    def time_step(self) -> float | None:
+        """The time step that the scene asks for."""
+        step = self._rows.technique_common.time_step
+        return float(step.value[0]) if len(step) else None
 
     @property
     def is_instantiated(self) -> bool:
@@ -138,15 +189,12 @@ class Scene:
     def models(self) -> Models:
         """The instances of models in this scene."""
         if self._models is None:
-            self._models = Models(self)
+            self._models = Models(self, self._rows.instance_physics_model)
         return self._models
 
     def load(self, world: World | None = None, **options: Any) -> World:
         """Load this scene, into `world` where one is given; options as Document.load."""
-        from colladaphy.mapper import load
-
-        with schema_errors(self.document):
-            return load(self.document, world, scenes=[self], **options)
+        return self.document.load_chosen([self], self.models, world, **options)
 
     def __repr__(self) -> str:
         state = "instantiated" if self.is_instantiated else "not instantiated"
@@ -156,23 +204,28 @@ class Scene:
 class Scenes:
     """The physics scenes that a document holds or instances, in document order; also by id."""
 
-    __slots__ = ("_document", "_scenes")
+    __slots__ = ("_resource", "_scenes")
 
-    def __init__(self, document: Document) -> None:
-        self._document = document
-        root = document.tree.getroot()
-        scenes: dict[etree._Element, Scene] = {}
-        for library in root.iterchildren(c("library_physics_scenes")):
-            for element in library.iterchildren(c("physics_scene")):
-                scenes[element] = Scene(document, element, [])
-        for effect in root.iterchildren(c("scene")):
-            for instance in effect.iterchildren(c("instance_physics_scene")):
-                target = document.resolve(instance.get("url", ""), instance, "physics_scene")
-                scene = scenes.get(target.element)
-                if scene is None:
-                    scene = scenes[target.element] = Scene(target.document, target.element, [])
-                scene.instances.append(instance)
-        self._scenes = list(scenes.values())
+    def __init__(self, document: Choosable, resource: Resource) -> None:
+        self._resource = resource
+        pool = Pool(resource)
+        table = pool.table(PhysicsSceneTypeRows, c("physics_scene"))
+        effects = resource.columns.rows(ColladaSceneRows, c("scene")).instance_physics_scene
+        ordinals = effects.ordinals
+        assert ordinals is not None
+        targets, errors = pool.follow(
+            table, list(effects.url), np.zeros(len(effects), np.int64), ordinals, "physics_scene"
+        )
+        for place in sorted(errors):
+            raise errors[place]
+        instances: dict[int, list[int]] = {row: [] for row in range(len(table.parts[0]))}
+        for row, number in zip(targets.tolist(), ordinals.tolist(), strict=True):
+            instances.setdefault(row, []).append(number)
+        self._scenes = []
+        for row, numbers in instances.items():
+            home = int(table.homes(np.array([row]))[0])
+            part = table.parts[home].select(np.array([row - table.start(home)]))
+            self._scenes.append(Scene(document, resource, pool.resources[home], part, numbers))
 
     @property
     def instantiated(self) -> list[Scene]:
@@ -200,7 +253,7 @@ class Scenes:
                 return scene
         known = _listing(scene.id for scene in self._scenes)
         message = f"The document has no physics scene {key!r}; it has {known}."
-        raise DocumentError(rules.UNKNOWN_SCENE.at(message=message, file=self._document.file))
+        raise DocumentError(rules.UNKNOWN_SCENE.at(message=message, file=self._resource.file))
 
 
 def _listing(found: Iterable[str | None]) -> str:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
 
 from lxml import etree
 
@@ -16,16 +15,15 @@ from colladaphy.errors import ColladaError, SchemaError
 from colladaphy.findings import Finding, Report
 from colladaphy.gate import rules as schema_rules
 from colladaphy.gate.numerals import incomplete_numbers
-
-if TYPE_CHECKING:
-    from colladaphy.document.document import Document
+from colladaphy.links.resource import Resource
+from colladaphy_schema.errors import CodecError
 
 __all__ = ["bad_numbers", "schema_errors"]
 
 
 @contextmanager
-def schema_errors(document: Document) -> Iterator[None]:
-    """Raise SchemaError, with all findings, where values of the document cannot be read.
+def schema_errors(resource: Resource) -> Iterator[None]:
+    """Raise SchemaError, with all findings, where values of a document cannot be read.
 
     An error that no value of the document explains is passed on.
     """
@@ -36,10 +34,10 @@ def schema_errors(document: Document) -> Iterator[None]:
     except ValueError as error:
         faults = [
             finding
-            for related in document.family
-            for finding in bad_numbers(related.tree_as_read, related.file)
+            for related in dict.fromkeys([resource, *resource.family.values()])
+            for finding in bad_numbers(related.tree, related.file)
         ]
-        faults = faults or list(_not_codable(error, document.file))
+        faults = faults or list(_not_codable(error, resource.file))
         if not faults:
             raise
         raise SchemaError(faults) from error
@@ -56,7 +54,5 @@ def bad_numbers(
 
 def _not_codable(error: ValueError, file: str | None) -> Iterable[Finding]:
     """What the codecs say: of an edited `Document.root`, mostly, which can hold anything."""
-    from colladaphy_schema.errors import CodecError
-
     if isinstance(error, CodecError):
         yield schema_rules.INVALID_VALUE.at(message=f"{error}.", file=file)

@@ -1,7 +1,8 @@
 """The mapper: documents become Worlds, and Worlds documents (thesis 5.3, 5.4)."""
 
-from colladaphy.mapper.load import load
+from colladaphy.mapper.loading.deciding import Prefer
+from colladaphy.mapper.loading.load import Chosen, load
 from colladaphy.mapper.options import WriteOptions
-from colladaphy.mapper.store import store
+from colladaphy.mapper.storing import store
 
-__all__ = ["WriteOptions", "load", "store"]
+__all__ = ["Chosen", "Prefer", "WriteOptions", "load", "store"]

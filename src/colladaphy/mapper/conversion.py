@@ -7,20 +7,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.document.poses import Quaternion
 from colladaphy.errors import DocumentError
+from colladaphy.links.resource import Resource
 from colladaphy.mapper import rules
-from colladaphy.world import rotations
+from colladaphy.world import Mesh, World, rotations
 from colladaphy.world.kinds import Kind
 
-if TYPE_CHECKING:
-    from colladaphy.document import Document
-    from colladaphy.world import World
+Quaternion = tuple[float, float, float, float]
 
 __all__ = ["Conversion", "conversion", "convert"]
 
@@ -46,24 +44,24 @@ class Conversion:
 
 
 def conversion(
-    document: Document, world: World | None, *, si: bool, up_axis: str | None
+    resource: Resource, world: World | None, *, si: bool, up_axis: str | None
 ) -> Conversion | None:
     """What has to be changed; None where nothing has."""
-    name, meter = document.unit
+    name, meter = resource.unit
     target = (name, meter)
-    axis = up_axis or document.up_axis
+    axis = up_axis or resource.up_axis
     if world is not None:
         target, axis = (world.unit_name, world.unit_meter), world.up_axis
     elif si:
         target = ("meter", 1.0)
-    if target[1] == meter and axis == document.up_axis:
+    if target[1] == meter and axis == resource.up_axis:
         return None
-    for known in (axis, document.up_axis):
+    for known in (axis, resource.up_axis):
         if known not in _TO_Z_UP:
             raise ValueError(f"an up axis is X_UP, Y_UP or Z_UP, not {known!r}")
     back = rotations.conjugate(_TO_Z_UP[axis])
-    w, x, y, z = rotations.multiply(back, _TO_Z_UP[document.up_axis]).tolist()
-    turn = (w, x, y, z) if axis != document.up_axis else (1.0, 0.0, 0.0, 0.0)
+    w, x, y, z = rotations.multiply(back, _TO_Z_UP[resource.up_axis]).tolist()
+    turn = (w, x, y, z) if axis != resource.up_axis else (1.0, 0.0, 0.0, 0.0)
     return Conversion(meter / target[1], turn, target, axis)
 
 
@@ -78,8 +76,6 @@ def convert(world: World, change: Conversion) -> None:
 
 
 def _convert(world: World, change: Conversion) -> None:
-    from colladaphy.world import Mesh
-
     scale, turn = change.scale, np.array(change.turn)
     turns = change.turn != (1.0, 0.0, 0.0, 0.0)
     world.unit_name, world.unit_meter = change.unit

@@ -6,21 +6,20 @@ values are the same, and get another name where theirs is taken.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.links.resource import Resource
 from colladaphy.mapper import rules
-from colladaphy.mapper.creation import free_ids
-from colladaphy.mapper.materials import unique_name
+from colladaphy.mapper.loading.creation import free_ids
+from colladaphy.mapper.loading.materials import unique_name
+from colladaphy.world import World
 from colladaphy.world.columns import BODY_FIELDS, MEMBER_FIELDS
 from colladaphy.world.joints import JOINT_FIELDS
 from colladaphy.world.materials import VALUES
 
-if TYPE_CHECKING:
-    from colladaphy.document import Document
-    from colladaphy.world import World
 
 __all__ = ["join"]
 
@@ -28,7 +27,7 @@ __all__ = ["join"]
 Array = NDArray[Any]
 
 
-def join(world: World, fresh: World, document: Document) -> None:
+def join(world: World, fresh: World, document: Resource) -> None:
     """Move everything of `fresh` into `world`, which keeps its own gravity and clock."""
     materials = _materials(world, fresh, document)
     meshes = {
@@ -64,7 +63,7 @@ def join(world: World, fresh: World, document: Document) -> None:
     _join_joints(world, fresh, ids, document)
 
 
-def _materials(world: World, fresh: World, document: Document) -> dict[int, int]:
+def _materials(world: World, fresh: World, document: Resource) -> dict[int, int]:
     """The ids of the fresh World's materials in the old one."""
     used = set(np.unique(fresh.top.column("material_ids")).tolist())
     used |= set(np.unique(fresh.inner.column("material_ids")).tolist())
@@ -102,7 +101,7 @@ def _renamed(column: Array, ids: dict[int, int]) -> Array:
     return np.asarray(renamed[where])
 
 
-def _join_joints(world: World, fresh: World, ids: dict[int, int], document: Document) -> None:
+def _join_joints(world: World, fresh: World, ids: dict[int, int], document: Resource) -> None:
     old = fresh.joint_table.column("sids").tolist()
     if not old:
         return

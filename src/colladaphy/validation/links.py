@@ -6,25 +6,21 @@ the rest (a material, an image, the geometry of a shape, which costs one body) i
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Any
 
-from lxml import etree
-
-from colladaphy.document import rules
 from colladaphy.errors import ColladaError
 from colladaphy.findings import Finding, Severity
 from colladaphy.gate.references import EXPECTED
-from colladaphy.source import COLLADA_1_5
+from colladaphy.links import rules
+from colladaphy.links.names import c
+from colladaphy.links.resource import Resource
 from colladaphy.source import rules as source_rules
-
-if TYPE_CHECKING:
-    from colladaphy.document import Document, Target
+from colladaphy_schema.rows import Column, Rows
 
 __all__ = ["check_links"]
-
-_NS = f"{{{COLLADA_1_5}}}"
 
 # References whose attributes name a part of the physics model that the parent instances.
 _PARTS = {
@@ -45,106 +41,128 @@ _NEEDED = frozenset(
 _WORLD = ("attachment", "ref_attachment")
 
 
-def check_links(document: Document) -> list[Finding]:
+def check_links(resource: Resource) -> list[Finding]:
     """Findings for every reference that leads nowhere, or to an element of the wrong kind."""
     findings: list[Finding] = []
-    parts = _Parts(document)
-    for element, attribute, expected in _references(document.tree):
-        reference = element.get(attribute, "")
-        name = element.tag.rpartition("}")[2]
-        if not reference.strip() and name in _WORLD:
-            continue  # the world itself
-        severity = Severity.ERROR if name in _NEEDED else Severity.WARNING
-        if not reference.strip():
-            if attribute != "url":  # a body without a node stands at its model's place
-                severity = Severity.WARNING
-            message = f"The attribute {attribute!r} is empty, so it refers to nothing."
-            findings.append(rules.MISSING.at(element, message, severity=severity))
-            continue
-        try:
-            document.resolve(reference, element, expected)
-        except ColladaError as error:
-            findings.extend(_placed(finding, element, severity) for finding in error.findings)
+    for (name, attribute), expected in EXPECTED.items():
+        for number, reference in _attributes(resource, name, attribute):
+            findings.extend(_check(resource, name, attribute, expected, number, reference))
+    parts = _Parts(resource)
     for (name, attribute), kind in _PARTS.items():
-        for element in document.tree.iter(_NS + name):
-            findings.extend(parts.check(element, attribute, kind))
+        for number, sid in _attributes(resource, name, attribute):
+            findings.extend(parts.check(number, sid, kind))
     findings.sort(key=lambda finding: (finding.line or 0, finding.path or "", finding.code))
     return list(dict.fromkeys(findings))
 
 
-def _references(
-    tree: etree._ElementTree,
-) -> Iterator[tuple[etree._Element, str, tuple[str, ...]]]:
-    """References in the document's own content; what a technique holds is its own affair."""
-    by_name: dict[str, list[tuple[str, tuple[str, ...]]]] = {}
-    for (name, attribute), expected in EXPECTED.items():
-        by_name.setdefault(_NS + name, []).append((attribute, expected))
-    for element in tree.iter(*by_name):
-        for attribute, expected in by_name[str(element.tag)]:
-            if element.get(attribute) is not None and not _in_technique(element):
-                yield element, attribute, expected
+def _attributes(resource: Resource, name: str, attribute: str) -> Iterator[tuple[int, str]]:
+    """The numbers of elements and their attributes; what a technique holds is its own affair."""
+    rows = resource.columns.rows(Rows, c(name))
+    if not len(rows):
+        return
+    assert rows.ordinals is not None
+    column: Column[Any] = Column(attribute, "attribute", "string", optional=True)
+    column.name = attribute
+    for number, text in zip(
+        rows.ordinals.tolist(), resource.columns.column(rows, column), strict=True
+    ):
+        if text is not None:
+            yield number, text
 
 
-def _in_technique(element: etree._Element) -> bool:
-    """Whether the element is foreign content; effect profiles have techniques of another kind."""
-    for technique in element.iterancestors(_NS + "technique"):
-        if technique.get("profile") is not None:
-            return True
-    return False
+def _check(
+    resource: Resource, name: str, attribute: str, expected: tuple[str, ...], number: int,
+    reference: str,
+) -> list[Finding]:  # fmt: skip
+    if reference[:1] == "#":
+        target = resource.ids.get(reference[1:])
+        if target is not None and resource.columns.local_name(target) in expected:
+            return []
+    if not reference.strip() and name in _WORLD:
+        return []  # the world itself
+    severity = Severity.ERROR if name in _NEEDED else Severity.WARNING
+    if not reference.strip():
+        if attribute != "url":  # a body without a node stands at its model's place
+            severity = Severity.WARNING
+        message = f"The attribute {attribute!r} is empty, so it refers to nothing."
+        return [rules.MISSING.at(resource.element(number), message, severity=severity)]
+    try:
+        resource.follow(reference, number, expected)
+    except ColladaError as error:
+        return [_placed(finding, resource, number, severity) for finding in error.findings]
+    return []
 
 
-def _placed(finding: Finding, element: etree._Element, severity: Severity) -> Finding:
+def _placed(finding: Finding, resource: Resource, number: int, severity: Severity) -> Finding:
     """A finding about another file gets the place of the reference that led there."""
-    if finding.code == source_rules.REFERENCE_REFUSED.code:  # not wrong, but cannot be checked
-        return source_rules.REFERENCE_REFUSED.at(
-            element, finding.message, severity=Severity.WARNING, hint=finding.hint
-        )
-    if finding.code == source_rules.REFERENCE_MISSING.code:
-        rule = source_rules.REFERENCE_MISSING
-        return rule.at(element, finding.message, severity=severity, hint=finding.hint)
+    for rule, level in (
+        (source_rules.REFERENCE_REFUSED, Severity.WARNING),  # not wrong, but cannot be checked
+        (source_rules.REFERENCE_MISSING, severity),
+    ):
+        if finding.code == rule.code:
+            element = resource.element(number)
+            return rule.at(element, finding.message, severity=level, hint=finding.hint)
     return replace(finding, severity=severity)
 
 
 class _Parts:
     """Sids of rigid bodies and constraints, by the physics model that an instance refers to."""
 
-    def __init__(self, document: Document) -> None:
-        self._document = document
-        self._sids: dict[tuple[etree._Element, str], frozenset[str]] = {}
+    def __init__(self, resource: Resource) -> None:
+        self._resource = resource
+        self._own: dict[tuple[int, str], dict[int, set[str]]] = {}
+        self._all: dict[tuple[int, int, str], frozenset[str]] = {}
+        self._models: dict[tuple[int, int], tuple[Resource, int] | None] = {}
 
-    def check(self, element: etree._Element, attribute: str, kind: str) -> list[Finding]:
+    def check(self, number: int, sid: str, kind: str) -> list[Finding]:
         """A finding where the instanced model has no part of that sid."""
-        sid = element.get(attribute)
-        instance = element.getparent()
-        if sid is None or instance is None or _in_technique(element):
-            return []
-        try:
-            model = self._document.resolve(instance.get("url", ""), instance, "physics_model")
-        except ColladaError:
+        resource = self._resource
+        instance = resource.columns.parent_of(number)
+        model = self._model(resource, instance)
+        if model is None:
             return []  # reported at the instance
-        if sid.rpartition("/")[2] in self._all(model, kind):
+        if sid.rpartition("/")[2] in self._within(*model, kind):
             return []
-        message = f"The physics model {instance.get('url')!r} has no <{kind}> of sid {sid!r}."
-        return [rules.MISSING.at(element, message)]
+        url = resource.columns.attribute_of(instance, "url") or ""
+        message = f"The physics model {url!r} has no <{kind}> of sid {sid!r}."
+        return [rules.MISSING.at(resource.element(number), message)]
 
-    def _all(self, model: Target, kind: str) -> frozenset[str]:
+    def _model(self, resource: Resource, instance: int) -> tuple[Resource, int] | None:
+        key = (id(resource), instance)
+        if key not in self._models:
+            url = resource.columns.attribute_of(instance, "url") or ""
+            try:
+                self._models[key] = resource.follow(url, instance, "physics_model")
+            except ColladaError:
+                self._models[key] = None
+        return self._models[key]
+
+    def _within(self, resource: Resource, model: int, kind: str) -> frozenset[str]:
         """Sids in the model and in the models that it instances, each looked at once."""
-        known = self._sids.get((model.element, kind))
-        if known is not None:
-            return known
-        sids: set[str] = set()
-        seen = {model.element}
-        waiting = [model]
-        while waiting:
-            target = waiting.pop()
-            sids.update(part.get("sid", "") for part in target.element.iterchildren(_NS + kind))
-            for inner in target.element.iterchildren(_NS + "instance_physics_model"):
-                try:
-                    found = target.document.resolve(inner.get("url", ""), inner, "physics_model")
-                except ColladaError:
-                    continue
-                if found.element not in seen:
-                    seen.add(found.element)
-                    waiting.append(found)
-        self._sids[(model.element, kind)] = frozenset(sids)
-        return self._sids[(model.element, kind)]
+        key = (id(resource), model, kind)
+        if key not in self._all:
+            sids: set[str] = set()
+            seen = {(id(resource), model)}
+            waiting = [(resource, model)]
+            while waiting:
+                home, inner = waiting.pop()
+                sids |= self._parts(home, kind).get(inner, set())
+                for instance in self._parts(home, "instance_physics_model").get(inner, ()):
+                    found = self._model(home, int(instance))
+                    if found is not None and (id(found[0]), found[1]) not in seen:
+                        seen.add((id(found[0]), found[1]))
+                        waiting.append(found)
+            self._all[key] = frozenset(sids)
+        return self._all[key]
+
+    def _parts(self, home: Resource, kind: str) -> dict[int, set[str]]:
+        """Sids by the number of the model; of instances of models their own numbers."""
+        key = (id(home), kind)
+        if key not in self._own:
+            found: defaultdict[int, set[str]] = defaultdict(set)
+            attribute = "url" if kind == "instance_physics_model" else "sid"
+            for number, text in _attributes(home, kind, attribute):
+                told = str(number) if attribute == "url" else text
+                found[home.columns.parent_of(number)].add(told)
+            self._own[key] = dict(found)
+        return self._own[key]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from colladaphy.document import Document
 from colladaphy.errors import InputError, XmlError
 from colladaphy.findings import Report
 from colladaphy.gate import gate
 from colladaphy.gate.numerals import incomplete_numbers
+from colladaphy.links.resource import Resource
 from colladaphy.source import Limits, Parsed, Source, load, parse_loaded
 from colladaphy.source import rules as source_rules
 from colladaphy.source.places import locate
@@ -51,8 +51,7 @@ def validate(source: Source, *, limits: Limits | None = None) -> Report:
     report.extend(gate(parsed.tree))
     report.extend(incomplete_numbers(parsed.tree, loaded.data))
     if report.valid:
-        document = _document(parsed, report, {})
-        report.extend(check_links(document))
+        report.extend(check_links(_resource(parsed, loaded.data, report, {})))
     _locate(report, loaded.data)
     return report
 
@@ -71,9 +70,12 @@ def _locate(report: Report, data: bytes) -> None:
             report.findings[index] = replace(finding, line=line, column=column)
 
 
-def _document(parsed: Parsed, report: Report, family: dict[str, Document]) -> Document:
-    def opener(file: str) -> Document:
+def _resource(
+    parsed: Parsed, data: bytes | None, report: Report, family: dict[str, Resource]
+) -> Resource:
+    def opener(file: str) -> Resource:
         other = parsed.parse_relative(file)
-        return _document(other, Report(other.file), family)
+        return _resource(other, None, Report(other.file), family)
 
-    return Document(parsed.tree, file=parsed.file, report=report, opener=opener, family=family)
+    return Resource(parsed.tree, data, file=parsed.file, report=report, opener=opener,
+                    family=family)  # fmt: skip

@@ -13,7 +13,7 @@ from colladaphy.mapper import rules as mapper_rules
 from colladaphy.source import Limits, Parsed, Source, parse
 
 if TYPE_CHECKING:
-    from colladaphy.document import Document
+    from colladaphy.document import Document, Scene
     from colladaphy.world import World
 
 __all__ = ["describe"]
@@ -92,7 +92,7 @@ def describe(
 def _mended(parsed: Parsed, convention: str) -> Document:
     from colladaphy.document.api import document_of
 
-    return document_of(parsed, repair=True, convention=convention, family={})
+    return document_of(parsed, repair=True, convention=convention)
 
 
 def _count(root: etree._Element) -> dict[str, Any]:
@@ -124,22 +124,19 @@ def _count(root: etree._Element) -> dict[str, Any]:
     }
 
 
-def _scene(scene: Any) -> dict[str, Any]:
-    common = _child(scene.element, "technique_common")
-    gravity = _child(common, "gravity")
-    step = _child(common, "time_step")
+def _scene(scene: Scene) -> dict[str, Any]:
     return {
         "id": scene.id,
         "name": scene.name,
         "is_instantiated": scene.is_instantiated,
-        "gravity": None if gravity is None else [_number(x) for x in (gravity.text or "").split()],
-        "time_step": None if step is None else _number(step.text or ""),
+        "gravity": scene.gravity,
+        "time_step": scene.time_step,
         "models": [
             {
                 "id": model.id,
                 "sid": model.sid,
-                "bodies": sum(1 for _ in model.element.iter("{*}instance_rigid_body")),
-                "constraints": sum(1 for _ in model.element.iter("{*}instance_rigid_constraint")),
+                "bodies": model.body_count,
+                "constraints": model.constraint_count,
             }
             for model in scene.models
         ],

@@ -128,7 +128,8 @@ def _add_geometries(
     root: document.ColladaRows, world: World, leaves: Leaves, meshes: list[tuple[str, Mesh]]
 ) -> None:
     used = _used(leaves.values["mesh_ids"]).tolist() if len(leaves) else []
-    everything = [(f"Mesh{id}", world.meshes[id]) for id in used] + meshes
+    known = world.meshes
+    everything = [(f"Mesh{id}", known[id]) for id in used] + meshes
     if everything:
         library = LibraryGeometriesTypeRows(1)
         library.geometry = geometries_of(everything)

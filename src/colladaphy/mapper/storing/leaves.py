@@ -39,7 +39,7 @@ class Leaves:
         self, world: World, bodies: dict[str, Array], tree: Tree, options: WriteOptions
     ) -> None:
         single = np.flatnonzero(bodies["kinds"] != _UNION)
-        inner = np.flatnonzero(~tree.is_union)
+        inner = tree.order[~tree.is_union[tree.order]]
         self.owner: Array = single
         """(k,) the row of the body that each belongs to."""
         self.row: Array = single
@@ -53,8 +53,7 @@ class Leaves:
             self.values = {key: bodies[key] if whole else bodies[key][single] for key in _SHARED}
         else:
             owner = np.concatenate([single, tree.top[inner]])
-            sorting = np.lexsort((np.append(np.zeros(len(single), np.int64), tree.rank[inner]),
-                                  owner))  # fmt: skip
+            sorting = np.argsort(owner, kind="stable")
             self.owner, self.row = owner[sorting], np.append(single, inner)[sorting]
             self.is_member = sorting >= len(single)
             self.values = {

@@ -115,11 +115,13 @@ def _centers(world: World, mesh_ids: Array, hollow: Array) -> Array:
     for shell in (False, True):
         rows = np.flatnonzero(hollow == shell)
         used, places = distinct(mesh_ids[rows])
-        meshes = [world.meshes[id] for id in used.tolist()]
+        known = world.meshes
+        meshes = [known[id] for id in used.tolist()]
         if shell:
             complete_shells(meshes)
         if meshes:
-            centers[rows] = np.array([mesh.center_of(shell) for mesh in meshes])[places]
+            found = np.concatenate([mesh.center_of(shell) for mesh in meshes])
+            centers[rows] = found.reshape(-1, 3)[places]
     return centers
 
 

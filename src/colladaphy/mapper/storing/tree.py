@@ -46,10 +46,16 @@ class Tree:
         self.top = _found(top_sids, parents, sorting)
         """(m,) the row of the outermost union among the bodies."""
         self.levels = self._levels()
-        """The rows of each level."""
+        """The rows of each level, in the order in which a reader meets them."""
         for rows in self.levels[1:]:
             self.top[rows] = self.top[self.parent[rows]]
-        self.place, self.rank = self._order(world.children)
+        self.place, rank = self._places(world.children)
+        """(m,) places among siblings."""
+        self.order = np.lexsort((rank, self.top))
+        """The rows (m,) in the order in which a reader meets them."""
+        ranked = np.empty(len(self), np.int64)
+        ranked[self.order] = np.arange(len(self))
+        self.levels = [rows[np.argsort(ranked[rows])] for rows in self.levels]
         self.poses = self._poses()
         """Where the members stand in their outermost unions."""
 
@@ -65,8 +71,8 @@ class Tree:
         sorting = np.argsort(depth, kind="stable")
         return np.split(sorting, np.cumsum(np.bincount(depth))[:-1]) if len(self) else []
 
-    def _order(self, children: dict[int, tuple[int, ...]]) -> tuple[Array, Array]:
-        """Places (m,) among siblings, and in the order in which a reader meets the members (m,)."""
+    def _places(self, children: dict[int, tuple[int, ...]]) -> tuple[Array, Array]:
+        """Places among siblings (m,), and in the outermost union, as a reader meets the members."""
         listed = np.fromiter(chain.from_iterable(children.values()), np.int64, len(self))
         counts = np.fromiter(map(len, children.values()), np.int64, len(children))
         starts = np.repeat(np.cumsum(counts) - counts, counts)

@@ -16,6 +16,8 @@ __all__ = ["MassFrames", "mass_frames", "turns_of"]
 
 Array = NDArray[Any]
 
+_AXES = np.arange(3)
+
 
 def turns_of(orientations: Array) -> tuple[Floats, Bools]:
     """Axes and degrees (n, 4) of quaternions (n, 4), and which of them turn at all."""
@@ -59,8 +61,12 @@ def mass_frames(inertias: Array, wanted: Array) -> MassFrames:
     said = np.isfinite(flat).all(axis=1) & flat.any(axis=1)
     rows, tensors = rows[said], tensors[said]
     there[rows] = True
-    symmetric = 0.5 * tensors + 0.5 * np.swapaxes(tensors, 1, 2)
-    frames.moments[rows] = symmetric[:, (0, 1, 2), (0, 1, 2)]
+    symmetric = 0.5 * tensors
+    symmetric[:, _AXES, _AXES] += symmetric[:, _AXES, _AXES]
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        symmetric[:, i, j] += symmetric[:, j, i]
+        symmetric[:, j, i] = symmetric[:, i, j]
+    frames.moments[rows] = symmetric[:, _AXES, _AXES]
     oblique = (symmetric[:, (0, 0, 1), (1, 2, 2)] != 0.0).any(axis=1)
     if oblique.any():
         _turn(frames, rows[oblique], symmetric[oblique])
@@ -71,7 +77,13 @@ def _turn(frames: MassFrames, rows: Array, symmetric: Array) -> None:
     """Turn frames to the principal axes."""
     scale = np.abs(symmetric).max(axis=(1, 2))
     moments, axes = np.linalg.eigh(symmetric / scale[:, None, None])
-    mirrored = np.linalg.det(axes) < 0
+    x, y, z = (axes[:, :, column].T for column in range(3))
+    triple = (
+        x[0] * (y[1] * z[2] - y[2] * z[1])
+        + x[1] * (y[2] * z[0] - y[0] * z[2])
+        + x[2] * (y[0] * z[1] - y[1] * z[0])
+    )
+    mirrored = triple < 0
     axes[mirrored, :, 2] = -axes[mirrored, :, 2]
     frames.framed[rows] = True
     frames.turns[rows], frames.turned[rows] = turns_of(rotations.from_matrix(axes))

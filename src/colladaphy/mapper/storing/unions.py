@@ -39,11 +39,10 @@ def unions_of(bodies: Array, tree: Tree, leaves: Leaves, options: WriteOptions) 
     parents = bodies
     parent_of = tree.top
     for level in tree.levels:
-        # The members of one level by their unions, which stand by theirs, and then by their place.
-        sorter = np.argsort(parents)
-        rows = sorter[np.searchsorted(parents, parent_of[level], sorter=sorter)]
-        sorting = np.lexsort((tree.place[level], rows))
-        level, rows = level[sorting], rows[sorting]
+        # The members of one level stand as their unions do, and then by their place.
+        row_of = np.empty(len(tree) if above is not outermost else bodies[-1] + 1, np.int64)
+        row_of[parents] = np.arange(len(parents))
+        rows = row_of[parent_of[level]]
         united = tree.is_union[level]
         shapes, members = level[~united], level[united]
         if len(shapes):

@@ -1,0 +1,1 @@
+"""Links: ids, sids, urls, other files, and where nodes stand. References become rows."""

@@ -1,0 +1,200 @@
+"""One document of those that belong together: what the mapper needs to know of it.
+
+A resource has the bytes or the tree of a schema-valid document, its columns, the report, and the
+way to the documents that it refers to. `colladaphy.document.Document` is built on one.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from functools import cached_property
+from itertools import islice
+
+import numpy as np
+from lxml import etree
+
+from colladaphy.columns.reading import Document as Columns
+from colladaphy.conform.thesis_profile import in_our_spelling
+from colladaphy.errors import DocumentError
+from colladaphy.findings import Report, Rule, Severity
+from colladaphy.links import addresses, rules
+from colladaphy.links.names import COLLADA, PE, c
+from colladaphy.links.sids import Sids
+from colladaphy_schema.core_columns import AssetTypeRows, TechniqueTypeRows
+
+__all__ = ["Resource"]
+
+_log = logging.getLogger("colladaphy.document")
+_LEVELS = {
+    Severity.ERROR: logging.ERROR,
+    Severity.WARNING: logging.WARNING,
+    Severity.INFO: logging.INFO,
+    Severity.HINT: logging.DEBUG,
+}
+
+Opener = Callable[[str], "Resource"]
+
+
+class Resource:
+    """A schema-valid document, without an idea of what it is for."""
+
+    def __init__(
+        self,
+        tree: etree._ElementTree | None,
+        data: bytes | None = None,
+        *,
+        parser: Callable[[], etree._ElementTree] | None = None,
+        file: str | None = None,
+        report: Report | None = None,
+        opener: Opener | None = None,
+        family: dict[str, Resource] | None = None,
+        tolerant: bool = False,
+        member: str | None = None,
+    ) -> None:
+        self._tree = tree
+        self._parser = parser
+        self.data = data
+        """The bytes as they were read, where nothing was changed in them."""
+        self.file = file
+        self.report = Report(file) if report is None else report
+        self.member = member
+        """The name of the document in its archive."""
+        self.opener = opener
+        self.family: dict[str, Resource] = {} if family is None else family
+        """The documents that were opened for references, by file and reference."""
+        self.tolerant = tolerant
+        """Whether references that lead nowhere are only reported, not refused."""
+        self._shown: etree._ElementTree | None = None
+        self._elements: list[etree._Element] | None = None
+        self._asked = 0
+
+    @property
+    def tree(self) -> etree._ElementTree:
+        """The document as an lxml tree, parsed when it is first needed."""
+        if self._tree is None:
+            assert self._parser is not None
+            self._tree = self._parser()
+        return self._tree
+
+    @property
+    def has_tree(self) -> bool:
+        """Whether the tree is there already."""
+        return self._tree is not None
+
+    def with_tree(self, tree: etree._ElementTree) -> Resource:
+        """The same document after a change."""
+        return Resource(tree, None, file=self.file, report=self.report, opener=self.opener,
+                        family=self.family, tolerant=self.tolerant, member=self.member)  # fmt: skip
+
+    @cached_property
+    def columns(self) -> Columns:
+        """The document as columns, its pe profile in our own spelling."""
+        made = Columns.of(self._bytes(), lambda: self.tree)
+        if not self._is_thesis(made):
+            return made
+        self._shown = in_our_spelling(self.tree)
+        return made if self._shown is None else Columns.of(etree.tostring(self._shown))
+
+    def _bytes(self) -> bytes:
+        return etree.tostring(self.tree, encoding="UTF-8") if self.data is None else self.data
+
+    @staticmethod
+    def _is_thesis(columns: Columns) -> bool:
+        """Whether a technique of the pe profile may hold names without its namespace."""
+        techniques = columns.rows(TechniqueTypeRows, c("technique"))
+        ours = [profile == "pe" for profile in techniques.profile]
+        if not any(ours):
+            return False
+        return columns.has_foreign_children(techniques.select(np.array(ours)), f"{{{PE}}}")
+
+    @property
+    def _columns_tree(self) -> etree._ElementTree:
+        """The tree whose elements are those of the columns."""
+        assert self.columns is not None
+        return self.tree if self._shown is None else self._shown
+
+    def element(self, number: int) -> etree._Element:
+        """The element of a number, in the tree."""
+        if self._elements is None:
+            self._asked += 1
+            if self._asked <= 2:
+                return next(islice(self._columns_tree.iter(etree.Element), number, None))
+            self._elements = list(self._columns_tree.iter(etree.Element))
+        return self._elements[number]
+
+    def number(self, element: etree._Element) -> int:
+        """The number of an element of the tree."""
+        tree = self._columns_tree
+        if self._shown is not None:
+            element = tree.find(self.tree.getelementpath(element)) or element
+        for number, other in enumerate(tree.iter(etree.Element)):
+            if other is element:
+                return number
+        raise DocumentError(rules.MISSING.at(element, "The element is not of this document."))
+
+    @cached_property
+    def ids(self) -> dict[str, int]:
+        """The first element of every id; content of techniques has none."""
+        elements, texts = self.columns.with_attribute("id")
+        return dict(zip(reversed(texts), reversed(elements.tolist()), strict=True))
+
+    @cached_property
+    def sids(self) -> Sids:
+        """The elements by scoped id."""
+        return Sids(self.columns)
+
+    @cached_property
+    def _asset(self) -> AssetTypeRows:
+        assets = self.columns.rows(AssetTypeRows, f"{{{COLLADA}}}asset")
+        assert assets.ordinals is not None
+        return assets.select(self.columns.index.parent[assets.ordinals] == 0)
+
+    @property
+    def unit(self) -> tuple[str, float]:
+        """Name and length in metres of the document's unit of length."""
+        unit = self._asset.unit
+        if not len(unit):
+            return "meter", 1.0
+        return unit.name[0], float(unit.meter[0])
+
+    @property
+    def up_axis(self) -> str:
+        """X_UP, Y_UP (the default) or Z_UP."""
+        axes = self._asset.up_axis
+        return next((axis for axis in axes if axis), "Y_UP")
+
+    def follow(
+        self, reference: str, origin: int, expected: str | tuple[str, ...] = ()
+    ) -> tuple[Resource, int]:
+        """What a reference at an element leads to (see `colladaphy.links.addresses`)."""
+        return addresses.follow(self, reference, origin, expected)
+
+    def related(self, file: str, origin: int) -> Resource:
+        """The document that a relative reference names; each is read once."""
+        known = self.family.get(f"{self.file}\n{file}")
+        if known is None:
+            if self.opener is None:
+                message = f"The document refers to {file!r}, but it was not read from a file."
+                raise DocumentError(rules.MISSING.at(self.element(origin), message, file=self.file))
+            known = self.opener(file)
+            for other in self.family.values():
+                if other.file is not None and other.file == known.file:
+                    known = other
+            self.family[f"{self.file}\n{file}"] = known
+        return known
+
+    def note(
+        self,
+        rule: Rule,
+        number: int | None = None,
+        message: str | None = None,
+        *,
+        home: Resource | None = None,
+    ) -> None:
+        """Add a finding about an element of `home`, or of this document, to this report."""
+        where = self if home is None else home
+        element = None if number is None else where.element(number)
+        finding = rule.at(element, message, file=where.file or self.file)
+        self.report.add(finding)
+        _log.log(_LEVELS[finding.severity], "%s", finding)

@@ -1,0 +1,1 @@
+"""Loading: columns of documents become a World (thesis 5.3)."""

@@ -1,0 +1,198 @@
+"""Geometries of documents as meshes of a World, each read once (COLLADA 1.5 §mesh, §convex_mesh)."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.errors import DocumentError, WorldError
+from colladaphy.mapper import rules
+from colladaphy.mapper.hull import convex_hull
+from colladaphy.mapper.loading.surfaces import Surface, read_surfaces
+from colladaphy.mapper.loading.tables import Tables
+from colladaphy.world import Mesh, World
+
+__all__ = ["Geometries", "ShapeFault"]
+
+Array = NDArray[Any]
+
+_OUR_ID = re.compile(r"(?:.*-)?Mesh(\d{1,18})\Z")
+
+
+@dataclass(frozen=True, slots=True)
+class ShapeFault:
+    """Why a World cannot hold a shape; `empty` where it has no volume."""
+
+    message: str
+    empty: bool = False
+
+
+@dataclass(slots=True)
+class _Read:
+    """A geometry with its surface, before it is a mesh."""
+
+    surface: Surface
+    convex: bool
+    hull_of: str | None
+    origin: int
+
+
+class Geometries:
+    """The meshes of a World that is being loaded, by the rows of their geometries."""
+
+    def __init__(self, tables: Tables, world: World) -> None:
+        self._tables = tables
+        self._world = world
+        self._read: dict[int, _Read | None] = {}
+        self._known: dict[int, Mesh | ShapeFault] = {}
+
+    def meshes(self, rows: Array) -> list[Mesh | ShapeFault]:
+        """The meshes of geometries, created in this order."""
+        listed = rows.tolist()
+        fresh = list(dict.fromkeys(row for row in listed if row not in self._known))
+        if fresh:
+            self._add(fresh)
+        return [self._known[row] for row in listed]
+
+    def _add(self, rows: list[int]) -> None:
+        self._gather(rows)
+        made: list[tuple[int, Array, Array, bool]] = []
+        for row in rows:
+            surface = self._surface(row, [])
+            if isinstance(surface, ShapeFault):
+                self._known[row] = surface
+                continue
+            vertices, faces, convex, is_hull = surface
+            name = self._tables.geometries.texts("id")[row]
+            if is_hull:
+                message = f"The convex hull of geometry {name!r} has {len(faces)} triangles."
+                home, element = self._place(row)
+                self._tables.resource.note(rules.HULL, element, message, home=home)
+            if not len(faces):
+                self._known[row] = ShapeFault(f"The geometry {name!r} has no faces.")
+                continue
+            made.append((row, vertices, faces, convex))
+        self._create(made)
+
+    def _create(self, made: list[tuple[int, Array, Array, bool]]) -> None:
+        """Create the meshes, one by one where the World does not take all of them."""
+        if not made:
+            return
+        ids = self._ids([row for row, *_ in made])
+        with np.errstate(all="ignore"):
+            try:
+                meshes = self._world.add_meshes([source for _, *source in made], ids)
+            except (WorldError, OverflowError):
+                if len(made) > 1:
+                    middle = len(made) // 2
+                    self._create(made[:middle])
+                    self._create(made[middle:])
+                    return
+                self._known[made[0][0]] = self._fault(made[0], ids[0])
+                return
+        for (row, *_), mesh in zip(made, meshes, strict=True):
+            self._known[row] = mesh
+
+    def _fault(self, made: tuple[int, Array, Array, bool], id: int) -> ShapeFault:
+        _, vertices, faces, convex = made
+        try:
+            self._world.add_mesh(vertices, faces, convex=convex, id=id)
+        except OverflowError:
+            return ShapeFault("The mesh is too large for arithmetic.")
+        except WorldError as error:
+            return ShapeFault(error.findings[0].message, empty="volume" in str(error))
+        raise AssertionError("a mesh that was refused is taken")
+
+    def _ids(self, rows: list[int]) -> list[int]:
+        """The ids that meshes had in the World that was stored, where they are free."""
+        names = self._tables.geometries.texts("id")
+        taken = set(self._world.meshes)
+        ids: list[int | None] = []
+        for row in rows:
+            ours = _OUR_ID.match(names[row] or "")
+            id = None if ours is None else int(ours.group(1))
+            if id in taken:
+                id = None
+            if id is not None:
+                taken.add(id)
+            ids.append(id)
+        last = max(taken, default=-1)
+        made = []
+        for id in ids:
+            if id is None:
+                last += 1
+                id = last
+            made.append(id)
+        return made
+
+    # --- surfaces
+
+    def _place(self, row: int) -> tuple[Any, int]:
+        table = self._tables.geometries
+        home = int(table.homes(np.array([row]))[0])
+        return self._tables.pool.resources[home], int(table.ordinals[row])
+
+    def _gather(self, rows: list[int]) -> None:
+        """Read the surfaces of geometries that are not read yet, document by document."""
+        table = self._tables.geometries
+        todo = np.array(sorted(row for row in rows if row not in self._read), np.int64)
+        homes = table.homes(todo)
+        for home in np.unique(homes).tolist():
+            mine = todo[homes == home]
+            part = table.parts[home].select(mine - table.start(home))
+            for row in mine.tolist():
+                self._read[row] = None
+            for name in ("mesh", "convex_mesh"):
+                found = getattr(part, name)
+                if not len(found):
+                    continue
+                hulls = found.convex_hull_of if name == "convex_mesh" else [None] * len(found)
+                surfaces = read_surfaces(found)
+                for row, origin, surface, hull_of in zip(
+                    mine[found.owner].tolist(), found.ordinals.tolist(), surfaces, hulls,
+                    strict=True,
+                ):  # fmt: skip
+                    self._read[row] = _Read(surface, name == "convex_mesh", hull_of, origin)
+
+    def _surface(
+        self, row: int, path: list[int]
+    ) -> tuple[Array, Array, bool, bool] | ShapeFault:
+        """Vertices, faces, whether they are convex, and whether they are a computed hull."""
+        name = self._tables.geometries.texts("id")[row]
+        if row in path:
+            return ShapeFault(f"The geometry {name!r} is a convex hull of itself.")
+        self._gather([row])
+        read = self._read[row]
+        if read is None:
+            return ShapeFault(f"The geometry {name!r} is not a mesh.")
+        if read.hull_of is not None:
+            table = self._tables.geometries
+            home = table.homes(np.array([row]))
+            found, errors = self._tables.pool.follow(
+                table, [read.hull_of], home, np.array([read.origin]), "geometry"
+            )
+            if errors:
+                return ShapeFault(_message(errors[0]))
+            outer = self._surface(int(found[0]), [*path, row])
+            return outer if isinstance(outer, ShapeFault) else _hull_of(outer[0])
+        if read.surface.fault is not None:
+            return ShapeFault(read.surface.fault)
+        vertices, faces = read.surface.vertices, read.surface.faces
+        if read.convex and not len(faces):
+            return _hull_of(vertices)
+        return vertices, faces, read.convex, False
+
+
+def _message(error: DocumentError) -> str:
+    return error.findings[0].message
+
+
+def _hull_of(points: Array) -> tuple[Array, Array, bool, bool] | ShapeFault:
+    hull = convex_hull(points)
+    if hull is None:
+        return ShapeFault("The convex hull has no volume.", empty=True)
+    return *hull, True, True
