@@ -118,6 +118,12 @@ STILL_VELOCITY = Rule(
     "A body that cannot move has a velocity, which the engine does not use.",
     "Let the body move, or take its velocity away.",
 )
+AWAKE = Rule(
+    "engine-awake",
+    Severity.INFO,
+    "Bodies do not sleep: those that did are awake.",
+    "Give the engine sleep=True to let bodies sleep that rest.",
+)
 MATERIAL_UNUSED = Rule(
     "engine-material-unused",
     Severity.INFO,
@@ -290,6 +296,7 @@ RULES = (
     OPTION,
     SETTINGS,
     STILL_VELOCITY,
+    AWAKE,
     MATERIAL_UNUSED,
     JOINT_LIMITS,
     JOINT_APPROXIMATED,

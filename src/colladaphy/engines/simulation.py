@@ -64,9 +64,12 @@ class Simulation:
             raise EngineError(self.report.errors)
         if seed is not None and not self.engine.capabilities.random:
             self.report.add(SEED_UNUSED.at())
-        self.report.extend(unpack(world, self.engine.name, self.engine.version).findings)
+        options = getattr(self.engine, "options", None)
+        own = unpack(world, self.engine.name, self.engine.version, options)
+        self.report.extend(own.findings)
         self._seen = ""  # the digest of the World that the engine has
         self._load()
+        self.report.extend(getattr(self.engine, "notices", ()))
 
     @classmethod
     def resume(

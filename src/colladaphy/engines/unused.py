@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colladaphy.engines.rules import FRICTIONS, MATERIAL_UNUSED, STILL_VELOCITY
+from colladaphy.engines.rules import AWAKE, FRICTIONS, MATERIAL_UNUSED, STILL_VELOCITY
 from colladaphy.engines.surfaces import PairTable, used_materials
 
 if TYPE_CHECKING:
@@ -26,8 +26,14 @@ _SILENT = {
 }
 
 
-def unused(world: World, rule: str) -> Iterator[Finding]:
-    """Velocities of what is fixed, and values of materials; `rule` combines frictions."""
+def unused(world: World, rule: str, *, sleep: bool) -> Iterator[Finding]:
+    """Velocities of what is fixed, sleep where it is off, and values of materials.
+
+    `rule` combines the frictions of two materials.
+    """
+    asleep = int(np.count_nonzero(world.sleeping & ~world.fixed))
+    if asleep and not sleep:
+        yield AWAKE.at(message=f"{asleep} bodies that sleep are woken.")
     moves = np.any(world.linear_velocities != 0, axis=1) | np.any(
         world.angular_velocities != 0, axis=1
     )

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -42,7 +43,7 @@ def test_the_run_that_goes_on_is_the_run_that_is_loaded(scene: str, at: int) -> 
 def test_bodies_fall_asleep_and_are_woken() -> None:
     world = SCENES["pile"]()
     late = world.create_sphere(20, (0, 0, 60), 0.4, "iron")
-    engine = PymunkEngine()
+    engine = PymunkEngine(sleep=True)
     engine.load(world)
     slept = woken = False
     for _ in range(16):
@@ -50,6 +51,8 @@ def test_bodies_fall_asleep_and_are_woken() -> None:
         engine.store(world)
         engine.load(world)
         awake = ~world.sleeping & ~world.fixed
+        assert not np.any(world.linear_velocities[world.sleeping])
+        assert not np.any(world.angular_velocities[world.sleeping])
         slept = slept or (world.sleeping.any() and not late.sleeping)
         woken = woken or bool(slept and awake.sum() > 1)
     assert slept and woken

@@ -61,10 +61,10 @@ def test_differing_frictions_are_reported() -> None:
     world.create_plane(1, (0, 0, 1), 0, "granite")
     world.create_box(1, (0, 0, 0.5), (1, 1, 1), "oak")
     world.create_box(1, (3, 0, 0.5), (1, 1, 1), "fir")
-    assert {finding.code for finding in PymunkEngine().check(world)} == {"engine-plane-finite"}
+    assert "engine-frictions" not in {finding.code for finding in PymunkEngine().check(world)}
     world.set_pair("granite", "oak", static_friction=0.5)
     found = [f for f in PymunkEngine().check(world) if f.code == "engine-frictions"]
-    assert len(found) == 1 and "granite with oak" in found[0].message
+    assert len(found) == 1 and "granite on oak" in found[0].message
 
 
 @pytest.mark.parametrize("height", [20, 23, 26])

@@ -50,6 +50,8 @@ class MujocoEngine:
 
     def __init__(self, **options: Any) -> None:
         self._options = MujocoOptions.of(options)
+        self.notices: list[Finding] = []
+        """What was found at the last load."""
         self._key = ""
         self._model: Model | None = None
         self._motion: Motion | None = None
@@ -72,7 +74,8 @@ class MujocoEngine:
 
     def check(self, world: World) -> list[Finding]:
         """See `Engine.check`."""
-        return refusals.check(world, self._options)
+        fresh = unpack(world, self.name, self.version, self.options).data is None
+        return refusals.check(world, self._options, fresh=fresh)
 
     def load(self, world: World, *, seed: int | None = None) -> None:
         """See `Engine.load`. The compiled model is kept while only the motion changes."""
@@ -96,10 +99,12 @@ class MujocoEngine:
         self._clock = clock
         self._stepped = False
         self._bounds = Bounds.of(world, clock.time_step)
-        own = unpack(world, self.name, self.version).data
+        own = unpack(world, self.name, self.version, self.options).data
+        self.notices = []
         with _quiet():
             if own is None or not memory.recall(compiled, self._data, own):
                 self._motion.put(world, self._data)
+                self.notices = list(refusals.overlaps(world, self._model, self._data))
         rows, ids = self._motion.rows, self._motion.ids
         push = np.concatenate([world.forces[rows], world.torques[rows]], axis=1)
         self._data.xfrc_applied[ids] = push
@@ -152,7 +157,7 @@ class MujocoEngine:
             world.sleeping[rows] = asleep[motion.trees]
         self._clock.store(world)
         own = memory.remember(self._model.compiled, self._data)
-        pack(world, self.name, self.version, own)
+        pack(world, self.name, self.version, own, self.options)
 
     def contacts(self) -> list[Contact]:
         """See `Engine.contacts`."""

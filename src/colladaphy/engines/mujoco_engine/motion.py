@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import mujoco
 import numpy as np
@@ -20,6 +20,8 @@ __all__ = ["Motion"]
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
+
+_NOTHING: Final = 1e-12
 
 
 class Motion:
@@ -126,6 +128,8 @@ class Motion:
                 rows[row, columns] = data.efc_J[start : start + length]
         else:
             rows[:] = np.asarray(data.efc_J).reshape(-1, compiled.nv)[:count]
+        # What the tree holds already leaves rows of rounding errors, which must not be obeyed.
+        rows[np.abs(rows) < _NOTHING * (1.0 + np.abs(data.xpos).max())] = 0.0
         answers = np.zeros_like(rows)
         mujoco.mj_solveM(compiled, data, answers, rows)
         wrong = rows @ data.qvel

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import mujoco
 import numpy as np
 
 from colladaphy.engines.jointed import crossed, fastest, joint_findings
@@ -17,7 +18,9 @@ from colladaphy.engines.rules import (
     INERTIA_TRIANGLE,
     JOINT_APPROXIMATED,
     JOINT_INERT,
+    JOINT_LIMITS,
     JOINT_LOOP,
+    JOINT_OVERLAP,
     MASS,
     MESH_HULL,
     MOVING_PLANE,
@@ -28,22 +31,29 @@ from colladaphy.engines.unused import unused
 from colladaphy.world import Kind
 
 if TYPE_CHECKING:
+    from colladaphy.engines.mujoco_engine.model import Model
     from colladaphy.findings import Finding
     from colladaphy.world import Body, Joint, World
 
-__all__ = ["check"]
+__all__ = ["check", "overlaps"]
 
 _LEAST = 1e-15  # mjMINVAL
 _MOST = 1e10  # mjMAXVAL
 _MOST_MASS = 1e20
+_DEEP = 1e-4  # of the size of a body: an overlap worth a word
 
 
-def check(world: World, options: MujocoOptions | None = None) -> list[Finding]:
-    """All findings about running `world`; those of severity error are refusals."""
+def check(
+    world: World, options: MujocoOptions | None = None, *, fresh: bool = True
+) -> list[Finding]:
+    """All findings about running `world`; those of severity error are refusals.
+
+    `fresh`: it is not as the engine left it, so that joints may not fit their bodies.
+    """
     options = options or MujocoOptions()
     with np.errstate(all="ignore"):
-        findings = [*_gravity(world), *_bodies(world), *_shapes(world), *_joints(world)]
-        findings += unused(world, options.friction)
+        findings = [*_gravity(world), *_bodies(world), *_shapes(world), *_joints(world, fresh)]
+        findings += unused(world, options.friction, sleep=options.sleep)
     return [*resolve(options, world).describe(), *findings]
 
 
@@ -102,7 +112,7 @@ def _shapes(world: World) -> Iterator[Finding]:
                     yield MESH_HULL.at(message=message)
 
 
-def _joints(world: World) -> Iterator[Finding]:
+def _joints(world: World, fresh: bool) -> Iterator[Finding]:
     forest = plan(world)
     loops, inert = set(forest.loops), set(forest.inert)
     speeds = fastest(world)
@@ -112,7 +122,8 @@ def _joints(world: World) -> Iterator[Finding]:
         if joint.sid in inert:
             yield JOINT_INERT.at(message=f"{joint!r} binds what cannot move.")
             continue
-        yield from joint_findings(joint, speeds, closing=joint.sid in loops)
+        wrong = joint_findings(joint, speeds, closing=joint.sid in loops)
+        yield from (f for f in wrong if fresh or f.code == JOINT_LIMITS.code)
         if crossed(joint):
             continue
         if joint.sid in loops:
@@ -142,3 +153,34 @@ def _approximations(joint: Joint) -> Iterator[Finding]:
             if what == "angular" and axes.all() and not limited.any():
                 message = f"{joint!r}: the target of its angular spring is taken for zero."
             yield JOINT_APPROXIMATED.at(message=message)
+
+
+def overlaps(world: World, model: Model, data: Any) -> Iterator[Finding]:
+    """Bodies of joints that overlap, and collide, as `data` has them."""
+    joined = {
+        (min(one.sid, two.sid), max(one.sid, two.sid))
+        for joint in world.joints
+        if joint.enabled and not joint.interpenetrate
+        and (one := joint.body1) is not None and (two := joint.body2) is not None
+    }  # fmt: skip
+    if not joined:
+        return
+    mujoco.mj_kinematics(model.compiled, data)
+    mujoco.mj_comPos(model.compiled, data)
+    mujoco.mj_collision(model.compiled, data)
+    contact, deepest = data.contact, dict[tuple[int, int], float]()
+    if not data.ncon:
+        return
+    geoms = np.array(contact.geom)
+    sizes = np.asarray(model.compiled.geom_rbound)[geoms]
+    sizes = np.where(sizes > 0, sizes, np.inf).min(axis=1)
+    for pair, depth, size in zip(
+        model.geom_sids[geoms].tolist(), (-np.array(contact.dist)).tolist(), sizes.tolist(),
+        strict=True,
+    ):  # fmt: skip
+        key = (min(pair), max(pair))
+        if key in joined and depth > _DEEP * size:
+            deepest[key] = max(depth, deepest.get(key, 0.0))
+    for (low, high), depth in deepest.items():
+        names = f"{world.body(low)!r} and {world.body(high)!r}"
+        yield JOINT_OVERLAP.at(message=f"{names} are joined, and overlap by {depth:g}.")

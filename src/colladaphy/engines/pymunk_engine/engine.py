@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from itertools import combinations_with_replacement
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pymunk
 
+from colladaphy.engines.bounds import Bounds
 from colladaphy.engines.clock import Clock
+from colladaphy.engines.jointed import fastest, joint_findings
+from colladaphy.engines.options import Value
 from colladaphy.engines.outlines import HalfPlane
 from colladaphy.engines.planar import Planarity, analyse
 from colladaphy.engines.protocol import Capabilities, Contact
 from colladaphy.engines.pymunk_engine.contacts import contacts_of
 from colladaphy.engines.pymunk_engine.links import Link, plan
-from colladaphy.engines.pymunk_engine.pairs import materials_of
+from colladaphy.engines.pymunk_engine.settings import PymunkOptions
 from colladaphy.engines.pymunk_engine.space import Model, build
-from colladaphy.engines.rules import DIVERGED, FRICTIONS, PLANE_FINITE, SIZE, refuse
-from colladaphy.engines.state import pack
+from colladaphy.engines.rules import JOINT_LIMITS, JOINT_OVERLAP, PLANE_FINITE, SIZE
+from colladaphy.engines.state import pack, unpack
+from colladaphy.engines.unused import unused
 from colladaphy.errors import EngineError
 from colladaphy.findings import Finding, Severity
 from colladaphy.world import JointKind, Kind, rotations
@@ -27,11 +31,11 @@ if TYPE_CHECKING:
 
 __all__ = ["PymunkEngine"]
 
-_MANY_MATERIALS = 100  # pairs of more materials than these are not looked through for a warning
+_DEEP = 1e-4  # of the size of the scene: an overlap worth a word
 
 
 class PymunkEngine:
-    """Runs planar Worlds with pymunk.
+    """Runs planar Worlds with pymunk; options are those of `PymunkOptions`.
 
     A rotation is counted from the pose at `load`, where every angle is zero, so that `load` needs
     nothing but the World. pymunk's caches of contacts and of joints are not kept: a run that was
@@ -47,13 +51,22 @@ class PymunkEngine:
         two_frictions=False,
     )
 
-    def __init__(self) -> None:
+    def __init__(self, **options: Any) -> None:
+        self._options = PymunkOptions.of(options)
+        self.notices: list[Finding] = []
+        """What was found at the last load."""
         self._model: Model | None = None
         self._plan: Planarity | None = None
         self._heights: Any = np.zeros(0)  # of the bodies that move, as they were loaded
         self._orientations: Any = np.zeros((0, 4))
         self._clock = Clock(0.0, 0, 1.0)
+        self._bounds = Bounds(np.inf, 0.0)
         self._stepped = False
+
+    @property
+    def options(self) -> dict[str, Value]:
+        """The options that the engine was made with."""
+        return self._options.plain()
 
     @property
     def version(self) -> str:
@@ -62,16 +75,20 @@ class PymunkEngine:
 
     def check(self, world: World) -> list[Finding]:
         """See `Engine.check`."""
-        return _check(world)[2]
+        return self._check(world)[2]
 
     def load(self, world: World, *, seed: int | None = None) -> None:
         """See `Engine.load`."""
         clock = Clock.of(world)
-        planarity, links, findings = _check(world)
+        planarity, links, findings = self._check(world)
         errors = [finding for finding in findings if finding.severity is Severity.ERROR]
         if errors:
             raise EngineError(errors)
-        self._plan, self._model = planarity, build(world, planarity, links)
+        fresh = self._is_fresh(world)
+        model = build(world, planarity, links, self._options, fresh=fresh)
+        self._plan, self._model = planarity, model
+        self.notices = list(_overlaps(world, model, links, planarity.size)) if fresh else []
+        self._bounds = Bounds.of(world, clock.time_step)
         moving = ~world.fixed
         self._heights = planarity.frame.height(world.positions[moving])
         self._orientations = world.orientations[moving]
@@ -81,16 +98,21 @@ class PymunkEngine:
     def step(self, count: int = 1) -> None:
         """See `Engine.step`."""
         assert self._model is not None
-        space, time_step = self._model.space, self._clock.time_step
+        space, parts = self._model.space, self._options.substeps
+        time_step = self._clock.time_step / parts
         for _ in range(count):
-            space.step(time_step)
+            pushes = [(body.force, body.torque) for body in self._model.bodies] if parts > 1 else []
+            for part in range(parts):
+                if part:  # forces act during the whole step, and pymunk drops them after a part
+                    for body, (force, torque) in zip(self._model.bodies, pushes, strict=True):
+                        body.force, body.torque = force, torque
+                space.step(time_step)
         if count < 1:
             return
         self._stepped = True
         self._clock.advance(count)
-        if not np.all(np.isfinite(self._state())):
-            message = f"The simulation has diverged by step {self._clock.step_count}."
-            raise refuse(DIVERGED, message)
+        state = self._state()
+        self._bounds.check(state[:, 3:5], state, step=self._clock.step_count)
 
     def _state(self) -> Any:
         """Position, angle, velocity and angular velocity (n, 6) of the bodies that move."""
@@ -111,11 +133,15 @@ class PymunkEngine:
             world.orientations[rows] = _turned(self._orientations, frame.normal, state[:, 2])
             world.linear_velocities[rows] = frame.lift(state[:, 3:5])
             world.angular_velocities[rows] = state[:, 5:] * frame.normal
-            world.sleeping[rows] = [body.is_sleeping for body in self._model.bodies]
+            asleep = np.array([body.is_sleeping for body in self._model.bodies], dtype=np.bool_)
+            world.sleeping[rows] = asleep
+            # Chipmunk keeps the velocity with which a body fell asleep; but it stands still.
+            world.linear_velocities[rows[asleep]] = 0.0
+            world.angular_velocities[rows[asleep]] = 0.0
             world.forces[rows] = 0.0
             world.torques[rows] = 0.0
         self._clock.store(world)
-        pack(world, self.name, self.version)
+        pack(world, self.name, self.version, options=self.options)
 
     def contacts(self) -> list[Contact]:
         """See `Engine.contacts`."""
@@ -123,43 +149,57 @@ class PymunkEngine:
             return []
         return contacts_of(self._model, self._plan.frame)
 
+    def _is_fresh(self, world: World) -> bool:
+        """True unless the World is as this engine left it."""
+        return unpack(world, self.name, self.version, self.options).data is None
+
+    def _check(self, world: World) -> tuple[Planarity, list[Link], list[Finding]]:
+        """The plane of a World, its joints there, and everything to be said about both."""
+        planarity = analyse(world)
+        findings = list(planarity.findings)
+        links: list[Link] = []
+        if any(finding.code == SIZE.code for finding in findings):
+            return planarity, links, findings
+        speeds, fresh = fastest(world), self._is_fresh(world)
+        for joint in world.joints:
+            if not joint.enabled:
+                continue
+            link = plan(joint, planarity.frame, planarity.size)
+            findings += link.findings
+            if any(finding.code == "engine-joint-inert" for finding in link.findings):
+                continue
+            links.append(link)
+            wrong = list(joint_findings(joint, speeds))
+            findings += wrong if fresh else [f for f in wrong if f.code == JOINT_LIMITS.code]
+        for sid, outlines in planarity.outlines.items():
+            if any(isinstance(outline, HalfPlane) for outline in outlines):
+                message = f"A thick, finite slab stands for {world.body(sid)!r}."
+                findings.append(PLANE_FINITE.at(message=message))
+        findings += unused(world, self._options.friction, sleep=self._options.sleep)
+        return planarity, links, [self._options.describe(), *findings]
+
+
+def _overlaps(world: World, model: Model, links: list[Link], size: float) -> Iterator[Finding]:
+    """Bodies of joints that overlap, and collide."""
+    shapes = {sid: body.shapes for body, sid in zip(model.bodies, model.sids, strict=True)}
+    for link in links:
+        if not link.collide:
+            continue
+        others = shapes.get(link.second, ())
+        depths = [
+            -point.distance
+            for shape in shapes.get(link.first, ())
+            for met in model.space.shape_query(shape)
+            if met.shape in others
+            for point in met.contact_point_set.points
+        ]
+        if depths and max(depths) > _DEEP * size:
+            one, two = world.body(link.first), world.body(link.second)
+            message = f"{one!r} and {two!r} are joined, and overlap by {max(depths):g}."
+            yield JOINT_OVERLAP.at(message=message)
+
 
 def _turned(orientations: Any, normal: Any, angles: Any) -> Any:
     turn = rotations.from_axis_angle(normal, angles)
     turned = rotations.normalize(rotations.multiply(turn, orientations))
     return np.where(angles[:, None] == 0.0, orientations, turned)
-
-
-def _check(world: World) -> tuple[Planarity, list[Link], list[Finding]]:
-    """The plane of a World, its joints there, and everything to be said about both."""
-    planarity = analyse(world)
-    findings = list(planarity.findings)
-    links: list[Link] = []
-    if any(finding.code == SIZE.code for finding in findings):
-        return planarity, links, findings
-    for joint in world.joints:
-        if joint.enabled:
-            link = plan(joint, planarity.frame, planarity.size)
-            findings += link.findings
-            if not any(finding.code == "engine-joint-inert" for finding in link.findings):
-                links.append(link)
-    for sid, outlines in planarity.outlines.items():
-        if any(isinstance(outline, HalfPlane) for outline in outlines):
-            message = f"A thick, finite slab stands for {world.body(sid)!r}."
-            findings.append(PLANE_FINITE.at(message=message))
-    return planarity, links, findings + _two_frictions(world, planarity)
-
-
-def _two_frictions(world: World, planarity: Planarity) -> list[Finding]:
-    materials = materials_of(world, planarity)
-    pairs = combinations_with_replacement(materials[:_MANY_MATERIALS], 2)
-    differing = [
-        f"{first.name} with {second.name}"
-        for first, second in pairs
-        if (pair := world.pair(first, second)).static_friction != pair.dynamic_friction
-    ]
-    if not differing:
-        return []
-    more = f" and {len(differing) - 3} more pairs" if len(differing) > 3 else ""
-    message = f"Static and dynamic friction differ: {', '.join(differing[:3])}{more}."
-    return [FRICTIONS.at(message=message)]

@@ -10,18 +10,24 @@ import pymunk
 
 from colladaphy.engines.outlines import Disc, Outline, Polygon, Stadium
 from colladaphy.engines.planar import Planarity
-from colladaphy.engines.pymunk_engine.links import Link
+from colladaphy.engines.pymunk_engine.joining import allowed
+from colladaphy.engines.pymunk_engine.links import Link, Rail
 from colladaphy.engines.pymunk_engine.pairs import Pairs
 from colladaphy.world import rotations
 
 if TYPE_CHECKING:
+    from colladaphy.engines.pymunk_engine.settings import PymunkOptions
     from colladaphy.world import World
 
 __all__ = ["Model", "build"]
 
-_ITERATIONS = 20
+_LEAST_SPEED = 1e-30  # Chipmunk takes 0 for gravity's own
 _SLEEP_AFTER = 0.5  # of the World's unit of time
 _SLOP = 1e-3  # allowed overlap against the smallest dimension of a moving body
+_UNMENDED = 0.5  # what is left after a step of how far a pivot is off
+_ROD = 1e6  # length of the rod that makes a rail, against the size of the scene
+_BEHIND = 10.0  # how far the limits of a rail are measured from, against what they allow
+_SLEEP = 0.05  # of the velocity that gravity gives in one step
 _REACH = 1e3  # half length and half depth of a plane's slab, against the size of the scene
 
 
@@ -38,21 +44,51 @@ class Model:
     """System ids of the top-level bodies by the ids of pymunk's bodies."""
 
 
-def build(world: World, plan: Planarity, links: list[Link]) -> Model:
-    """The space of a World that `plan` found to be planar; everything in a fixed order."""
+def build(
+    world: World, plan: Planarity, links: list[Link], options: PymunkOptions, *, fresh: bool
+) -> Model:
+    """The space of a World that `plan` found to be planar; everything in a fixed order.
+
+    `fresh`: the World was not left by this engine, so that its velocities may contradict joints.
+    """
     space = pymunk.Space()
     model = Model(space)
     gravity = plan.frame.flat(world.gravity).tolist()
     space.gravity = (gravity[0], gravity[1])
-    space.iterations = _ITERATIONS
-    space.sleep_time_threshold = _SLEEP_AFTER
-    pairs = Pairs(world, plan)
+    space.iterations = options.iterations
+    dt = float(world.time_step or 1.0) / options.substeps
+    if options.sleep:
+        space.sleep_time_threshold = _SLEEP_AFTER
+        gravity_step = float(np.hypot(*gravity)) * dt
+        space.idle_speed_threshold = max(_SLEEP * gravity_step, _LEAST_SPEED)
+    pairs = Pairs(world, plan, options.friction)
     by_sid = _add_bodies(model, world, plan, pairs)
     pairs.attach(space)
-    for link in links:
-        _add_link(space, by_sid, link)
-    _put_to_sleep(model, world, links)
+    # What is solved for last is kept best: the joints themselves come after limits and springs.
+    made = [_constraints(space, by_sid, link, plan.size, dt) for link in links]
+    for number in (0, 1):
+        for pair in made:
+            space.add(*pair[number])
+    if fresh and links:
+        _let_joints_have_their_way(by_sid, links)
+    if options.sleep:
+        _put_to_sleep(model, world, links)
     return model
+
+
+def _let_joints_have_their_way(by_sid: dict[int, pymunk.Body], links: list[Link]) -> None:
+    bodies = list(by_sid.values())
+    rows = {sid: row for row, sid in enumerate(by_sid)} | {0: len(bodies)}
+    places = np.array([*(tuple(body.position) for body in bodies), (0.0, 0.0)])
+    motion, inverse = np.zeros((len(bodies) + 1, 3)), np.zeros((len(bodies) + 1, 3))
+    for row, body in enumerate(bodies):
+        if body.body_type == pymunk.Body.DYNAMIC:
+            motion[row] = (*body.velocity, body.angular_velocity)
+            inverse[row] = (1 / body.mass, 1 / body.mass, 1 / body.moment)
+    new = allowed(links, rows, places, motion, inverse)
+    for body, old, (u, v, spin) in zip(bodies, motion, new.tolist(), strict=False):
+        if body.body_type == pymunk.Body.DYNAMIC and (u, v, spin) != tuple(old.tolist()):
+            body.velocity, body.angular_velocity = (u, v), spin
 
 
 def _add_bodies(
@@ -65,9 +101,10 @@ def _add_bodies(
     angular = frame.height(world.angular_velocities).tolist()
     forces = frame.flat(world.forces).tolist()
     torques = frame.height(world.torques).tolist()
-    inertias = rotations.rotate_tensor(world.orientations, world.inertias)
-    moments = np.einsum("nij,i,j->n", inertias, frame.normal, frame.normal).tolist()
     fixed = world.fixed.tolist()
+    normals = rotations.unrotate(world.orientations, np.tile(frame.normal, (len(sids), 1)))
+    tensors = np.where(world.fixed[:, None, None], 0.0, world.inertias)
+    moments = np.einsum("nij,ni,nj->n", tensors, normals, normals).tolist()
     masses = world.masses.tolist()
     middle = _middle(positions, world)
     smallest = np.inf
@@ -144,31 +181,63 @@ def _flat(vector: Any) -> tuple[float, float]:
     return float(vector[0]), float(vector[1])
 
 
-def _add_link(space: pymunk.Space, bodies: dict[int, pymunk.Body], link: Link) -> None:
+def _constraints(
+    space: pymunk.Space, bodies: dict[int, pymunk.Body], link: Link, size: float, dt: float
+) -> tuple[list[pymunk.Constraint], list[pymunk.Constraint]]:
+    """What pushes and pulls in a joint, and what holds it together."""
     first = bodies[link.first] if link.first else space.static_body
     second = bodies[link.second] if link.second else space.static_body
+    soft: list[pymunk.Constraint] = []
     made: list[pymunk.Constraint] = []
     if link.pivot is not None:
-        made.append(pymunk.PivotJoint(first, second, *link.pivot))
-    if link.groove is not None:
-        made.append(pymunk.GrooveJoint(first, second, *link.groove))
+        pivot = pymunk.PivotJoint(first, second, *link.pivot)
+        # Mending so much in a step makes of Chipmunk's projections nearly the SHAKE method: a
+        # pendulum keeps its swing. (For a rail it would take energy away.)
+        pivot.error_bias = _UNMENDED ** (1.0 / dt)
+        made.append(pivot)
+    if link.rail is not None:
+        rod, ends = _rail(first, second, link.rail, size)
+        made.append(rod)
+        soft += ends
     if link.phase is not None:
         made.append(pymunk.GearJoint(first, second, link.phase, 1.0))
     if link.turn is not None:
-        made.append(pymunk.RotaryLimitJoint(first, second, *link.turn))
+        soft.append(pymunk.RotaryLimitJoint(first, second, *link.turn))
     if link.spring is not None:
         one, two, stiffness, damping = link.spring
-        made.append(pymunk.DampedSpring(first, second, one, two, 0.0, stiffness, damping))
+        soft.append(pymunk.DampedSpring(first, second, one, two, 0.0, stiffness, damping))
     if link.torsion is not None:
         rest, stiffness, damping = link.torsion
-        made.append(pymunk.DampedRotarySpring(first, second, -rest, stiffness, damping))
-    for constraint in made:
-        constraint.collide_bodies = link.collide
-    if not link.collide and not made:
+        soft.append(pymunk.DampedRotarySpring(first, second, -rest, stiffness, damping))
+    if not link.collide and not made and not soft:
         # Nothing holds them, but they pass through each other.
-        made.append(pymunk.RotaryLimitJoint(first, second, -np.inf, np.inf))
-        made[0].collide_bodies = False
-    space.add(*made)
+        soft.append(pymunk.RotaryLimitJoint(first, second, -np.inf, np.inf))
+    for constraint in (*soft, *made):
+        constraint.collide_bodies = link.collide
+    return soft, made
+
+
+def _rail(
+    first: pymunk.Body, second: pymunk.Body, rail: Rail, size: float
+) -> tuple[pymunk.Constraint, list[pymunk.Constraint]]:
+    """A rod so long that its end moves on a straight line, and another one for the limits.
+
+    Chipmunk's own GrooveJoint is no constraint across the groove alone: it takes the sliding for
+    an error, and adds energy without bound.
+    """
+    base, along = np.array(rail.base), np.array(rail.along)
+    long = _ROD * size
+    far = base + long * np.array([-along[1], along[0]])
+    rod = pymunk.PinJoint(first, second, _flat(far), rail.arm)
+    rod.distance = long
+    ends: list[pymunk.Constraint] = []
+    if np.isfinite(rail.limits).any():
+        reach = size + max(abs(end) for end in rail.limits if np.isfinite(end))
+        behind = _BEHIND * reach
+        low, high = (behind + max(-reach * _BEHIND, min(_ROD * reach, end)) for end in rail.limits)
+        back = _flat(base - behind * along)
+        ends.append(pymunk.SlideJoint(first, second, back, rail.arm, max(low, 0.0), high))
+    return rod, ends
 
 
 def _put_to_sleep(model: Model, world: World, links: list[Link]) -> None:
