@@ -85,14 +85,16 @@ def mend_suffixes(context: Context) -> None:
                 suffixes.setdefault(text, instance.get("url", ""))
     if not suffixes:
         return
+    lengths = sorted({len(suffix) for suffix in suffixes}, reverse=True)
     for element, key, value in list(_references(context, "#")):
         file, _, fragment = value.partition("#")
         head, slash, rest = fragment.partition("/")
         if file or not head or head in context.ids:
             continue
-        for suffix, url in suffixes.items():
-            bare = head.removesuffix(suffix)
-            if bare == head or not bare:
+        for length in lengths:
+            bare, suffix = head[:-length], head[-length:]
+            url = suffixes.get(suffix)
+            if url is None or not bare:
                 continue
             where = "" if bare in context.ids else url.partition("#")[0]
             if (bare in context.ids or where) and context.wants(rules.SUFFIXED):

@@ -61,8 +61,9 @@ def apply_scales(context: Context) -> None:
     for user, body, node in users:
         *_, top = (node, *node.iterancestors(NS + "node"))
         bodies.setdefault(body, []).append((trees[top], user, node))
-    while any(_judge(context, body, found, places) for body, found in bodies.items()):
-        pass  # what cannot be scaled keeps the others of its tree from it, too
+    # What cannot be scaled keeps the others of its tree from it, too.
+    while sum(_judge(context, body, found, places) for body, found in bodies.items()):
+        pass
     _rewrite(context, list(trees.values()), bodies, chains)
 
 

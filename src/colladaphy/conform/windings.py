@@ -46,11 +46,12 @@ def mend_windings(context: Context) -> None:
     for url in sorted(urls):
         geometry = context.by_url(url) if url.startswith("#") else None
         mesh = None if geometry is None else geometry.find(NS + "mesh")
-        if mesh is None:
+        points = None if mesh is None else _points(context, mesh)
+        if mesh is None or points is None or not _may_be_mixed(mesh, points):
             continue
-        points = _points(context, mesh)
-        faces = None if points is None else _faces(mesh, points)
-        if points is None or not faces or not _is_closed_and_mixed(faces, len(points)):
+        faces = _faces(mesh, points)
+        edges = _edges(faces or [])
+        if not faces or not _is_closed_and_mixed(edges[:, 0], edges[:, 1], len(points)):
             continue
         turned = _turned(faces, points)
         _turn(turned)
@@ -129,14 +130,35 @@ def _edges(faces: list[_Face]) -> _Integers:
     return np.asarray(edges, dtype=np.int64).reshape(-1, 3)
 
 
-def _is_closed_and_mixed(faces: list[_Face], count: int) -> bool:
-    """Whether every edge has two faces, and along some edge both run the same way."""
-    edges = _edges(faces)
-    if not len(edges):
-        return False
-    a, b = edges[:, 0], edges[:, 1]
+def _is_closed_and_mixed(a: _Integers, b: _Integers, count: int) -> bool:
+    """Whether every edge from a to b has two faces, and some edge has both the same way."""
     _, owners = np.unique(np.minimum(a, b) * count + np.maximum(a, b), return_counts=True)
-    return bool(np.all(owners == 2)) and len(np.unique(a * count + b)) < len(edges)
+    return bool(np.all(owners == 2)) and len(np.unique(a * count + b)) < len(a)
+
+
+def _may_be_mixed(mesh: etree._Element, points: Matrix) -> bool:
+    """The same of a mesh of triangles alone, which most are; True where one has to look closer."""
+    primitives = [child for child in mesh if child.find(NS + "p") is not None]
+    _, same = np.unique(points, axis=0, return_inverse=True)
+    starts, ends = [], []
+    for primitive in primitives:
+        offsets = {u.get("semantic"): u.get("offset", "0") for u in primitive.iter(NS + "input")}
+        if local(primitive) != "triangles" or "VERTEX" not in offsets:
+            return True
+        for p in primitive.iterchildren(NS + "p"):
+            try:
+                words = np.array((p.text or "").split(), dtype=np.int64)
+                width = max(map(int, offsets.values())) + 1
+                corners = same.ravel()[words[int(offsets["VERTEX"]) :: width]].reshape(-1, 3)
+            except (ValueError, IndexError):
+                return True
+            starts.append(corners.ravel())
+            ends.append(np.roll(corners, -1, axis=1).ravel())
+    if not starts:
+        return False
+    a, b = np.concatenate(starts), np.concatenate(ends)
+    real = a != b
+    return bool(np.any(real)) and _is_closed_and_mixed(a[real], b[real], len(points))
 
 
 def _turned(faces: list[_Face], points: Matrix) -> list[_Face]:
