@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import time
 from typing import Any
 
 import numpy as np
@@ -285,3 +286,28 @@ def test_words_at_any_place(data: bytes, draw: st.DataObject) -> None:
     assert [int(word) for word in found] == [
         int.from_bytes(padded[place : place + 8], "little") for place in places
     ]
+
+
+@pytest.mark.parametrize(
+    ("many", "head", "tail"),
+    [
+        (b"<!-- x --><b/>", b"<a>", b"</a>"),
+        (b"<p%d:b xmlns:p%d='urn:%d'><p%d:b xmlns:p%d='urn:x'/></p%d:b>", b"<a>", b"</a>"),
+        (b'<p:b xmlns:p="urn:%d"/>', b'<a xmlns="urn:1">', b"</a>"),
+        (b'<t><b xmlns="urn:2"><c/></b></t><d/>', b'<a xmlns="urn:1">', b"</a>"),
+        (b"<n%d/>", b"<a>", b"</a>"),
+        (b' a%d="1"', b"<a", b"/>"),
+    ],
+)
+def test_time_grows_with_the_document(many: bytes, head: bytes, tail: bytes) -> None:
+    """Ten times as many take ten times as long, not a hundred."""
+
+    def seconds(count: int) -> float:
+        parts = [many.replace(b"%d", b"%d" % number) for number in range(count)]
+        data = head + b"".join(parts) + tail
+        began = time.process_time()
+        Document.of(data)
+        return time.process_time() - began
+
+    few = min(seconds(2000) for _ in range(3))
+    assert seconds(20_000) < 40 * few + 0.1

@@ -93,16 +93,15 @@ class Index:
         cuts = np.searchsorted(self.codes[sorting], codes).tolist()
         self._by_code = {code: sorting[cuts[code] : cuts[code + 1]] for code in codes[:-1].tolist()}
 
-    def new_code(self, code: int, rows: Array) -> int:
-        """Give some elements (n,) of a name a code of their own."""
-        before = self.rows(code)
-        fresh = self.names.add()
-        if fresh > np.iinfo(self.codes.dtype).max:
+    def parted(self, code: int, parts: list[Array]) -> list[int]:
+        """Give the elements of a name, in parts, codes of their own; the first part keeps it."""
+        codes = [code, *(self.names.add() for _ in parts[1:])]
+        if codes[-1] > np.iinfo(self.codes.dtype).max:
             self.codes = self.codes.astype(np.int32)
-        self.codes[rows] = fresh
-        self._by_code[code] = before[self.codes[before] == code]
-        self._by_code[fresh] = rows
-        return fresh
+        for fresh, rows in zip(codes, parts, strict=True):
+            self.codes[rows] = fresh
+            self._by_code[fresh] = rows
+        return codes
 
     def is_empty(self, rows: Array) -> Array:
         """Whether the tags of elements are closed in themselves."""

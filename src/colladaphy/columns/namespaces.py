@@ -43,23 +43,35 @@ def codes_by_name(index: Index) -> dict[str, tuple[int, ...]]:
     names: defaultdict[bytes, list[int]] = defaultdict(list)
     for code, name in enumerate(index.names.texts):
         names[name.rpartition(b":")[0]].append(code)
-    meanings: defaultdict[bytes, list[int]] = defaultdict(list)
-    for kind, prefix in enumerate(declared.prefixes):
-        meanings[prefix].append(kind)
     found: defaultdict[str, list[int]] = defaultdict(list)
+    by_prefix = _by_prefix(declared)
+    uris: dict[bytes, int] = {b"": 0}
+    uri_of = np.array([uris.setdefault(uri, len(uris)) for uri in declared.uris], np.int64)
+    texts = list(uris)
     for prefix, codes in names.items():
-        kinds = meanings[prefix]
+        here = by_prefix.get(prefix)
+        kinds = [] if here is None else np.unique(declared.kinds[here]).tolist()
         # An undeclared prefix is not well-formed, but without a default there is no namespace.
-        everywhere = (
-            prefix or not kinds or bool(np.any(declared.kinds[declared.rows == 0] == kinds[0]))
-        )
-        if len(kinds) < 2 and everywhere:
+        everywhere = prefix or here is None or int(declared.rows[here[0]]) == 0
+        if here is None or (len(kinds) < 2 and everywhere):
             uri = declared.uris[kinds[0]] if kinds else b""
             for code in codes:
                 found[_qualified(uri, index.names.texts[code])].append(code)
         else:
-            _separate(index, codes, kinds, declared, found)
+            _separate(index, codes, here, declared, uri_of, texts, found)
     return {name: tuple(codes) for name, codes in found.items()}
+
+
+def _by_prefix(declared: _Declarations) -> dict[bytes, Array]:
+    """The declarations of each prefix, in the order of the document."""
+    if not len(declared.kinds):
+        return {}
+    numbers: dict[bytes, int] = {}
+    prefix = np.array([numbers.setdefault(p, len(numbers)) for p in declared.prefixes])
+    mine = prefix[declared.kinds]
+    sorting = np.argsort(mine, kind="stable")
+    cuts = np.searchsorted(mine[sorting], np.arange(1, len(numbers)))
+    return dict(zip(numbers, np.split(sorting, cuts), strict=True))
 
 
 def _qualified(uri: bytes, name: bytes) -> str:
@@ -123,32 +135,35 @@ def _attributes(index: Index) -> tuple[Ranges, Ranges, Array]:
 def _separate(
     index: Index,
     codes: list[int],
-    kinds: list[int],
+    here: Array,
     declared: _Declarations,
+    uri_of: Array,
+    texts: list[bytes],
     found: defaultdict[str, list[int]],
 ) -> None:
-    """Give elements whose prefix means different things codes by what it means where they are."""
+    """Give elements whose prefix means different things codes by what it means where they are.
+
+    `here` are the declarations of that prefix, `uri_of` the numbers of the URIs of the different
+    ones in `texts`.
+    """
     rows = np.sort(np.concatenate([index.rows(code) for code in codes]))
-    meaning = np.full(len(rows), -1, np.int64)
-    here = np.flatnonzero(np.isin(declared.kinds, kinds))
     begins = declared.rows[here]
-    lasts = index.last_within(begins)
     spans = zip(
         np.searchsorted(rows, begins).tolist(),
-        np.searchsorted(rows, lasts, side="right").tolist(),
-        declared.kinds[here].tolist(),
+        np.searchsorted(rows, index.last_within(begins), side="right").tolist(),
+        uri_of[declared.kinds[here]].tolist(),
         strict=True,
     )
-    for begin, end, kind in spans:  # in the order of the document: the inner ones come later
-        meaning[begin:end] = kind
+    meaning = np.zeros(len(rows), np.int64)
+    for begin, end, uri in spans:  # in the order of the document: the inner ones come later
+        meaning[begin:end] = uri
     for code in codes:
+        name = index.names.texts[code]
         mine = index.rows(code)
         means = meaning[np.searchsorted(rows, mine)]
-        by_uri: defaultdict[bytes, list[int]] = defaultdict(list)
-        for kind in np.unique(means).tolist():
-            by_uri[declared.uris[kind] if kind >= 0 else b""].append(kind)
-        for uri, same in by_uri.items():
-            inside = mine if len(by_uri) == 1 else mine[np.isin(means, same)]
-            name = index.names.texts[code]
-            fresh = code if len(inside) == len(mine) else index.new_code(code, inside)
-            found[_qualified(uri, name)].append(fresh)
+        sorting = np.argsort(means, kind="stable")
+        means = means[sorting]
+        cuts = np.flatnonzero(means[1:] != means[:-1]) + 1
+        parts = np.split(mine[sorting], cuts)
+        for fresh, place in zip(index.parted(code, parts), [0, *cuts.tolist()], strict=True):
+            found[_qualified(texts[means[place]], name)].append(fresh)

@@ -35,7 +35,7 @@ def _line(element: etree._Element) -> int | None:
 class Places:
     """Places of elements, by their numbers in the order of the document."""
 
-    def __init__(self, index: Index, source: bytes | None, tree: Tree = None) -> None:
+    def __init__(self, index: Index, source: bytes | bytearray | None, tree: Tree = None) -> None:
         """`source` is what was indexed, as it came; None where that was a serialisation."""
         self._index = index
         self._source = source

@@ -45,7 +45,7 @@ class Document:
 
     def __init__(self, data: bytes | bytearray, start: int = 0, *, block: int = BLOCK) -> None:
         self.index = Index(data, start, block)
-        self.places = Places(self.index, bytes(data) if isinstance(data, bytearray) else data)
+        self.places = Places(self.index, data)
         """Where its elements stand in the source as it came."""
         self._entities = b"&" in data
         self._blanked = b"\0" in data
