@@ -79,9 +79,13 @@ class Template:
             flat[place::width] = part.texts(begin, end)
         return flat
 
+    def pieces(self, begin: int, end: int) -> list[str]:
+        """The pieces of text of a range of records, as many for each as there are parts."""
+        return self._flat(begin, end, self._pattern)
+
     def joined(self, begin: int, end: int) -> str:
         """The text of a range of records, one after the other."""
-        return "".join(self._flat(begin, end, self._pattern))
+        return "".join(self.pieces(begin, end))
 
     def texts(self, begin: int, end: int) -> list[str]:
         """One text for each of a range of records."""
@@ -185,17 +189,25 @@ class Repeated(Part):
     def texts(self, begin: int, end: int) -> list[str]:
         """Nothing where there are none."""
         first, last = np.searchsorted(self._owner, (begin, end)).tolist()
-        texts = self._sorted(first, last)
-        if not texts:
+        if first == last:
             return [""] * (end - begin)
         owner = self._owner[first:last] - begin
-        fresh = np.append(True, owner[1:] != owner[:-1])
-        flat = [_RECORD, ""] * len(texts)
-        flat[::2] = np.array(["", _RECORD], dtype=object)[fresh.astype(np.intp)].tolist()
-        flat[1::2] = texts
-        flat[0] = ""
+        starts = np.flatnonzero(np.append(True, owner[1:] != owner[:-1]))
+        if len(starts) == len(owner):
+            texts = self._sorted(first, last)
+        else:
+            # Cut out of one list: to split a long text looks at every letter of it.
+            if self._kind is None:
+                template = self.kinds[0][0]
+                width, flat = len(template.parts), template.pieces(first, last)
+            else:
+                width, flat = 1, self._sorted(first, last)
+            cuts = [*(starts * width).tolist(), len(flat)]
+            texts = ["".join(flat[start:stop]) for start, stop in pairwise(cuts)]
+        if len(starts) == end - begin:
+            return texts
         spread = np.full(end - begin, "", dtype=object)
-        spread[owner[fresh]] = "".join(flat).split(_RECORD)
+        spread[owner[starts]] = texts
         made: list[str] = spread.tolist()
         return made
 
