@@ -214,3 +214,36 @@ def test_a_body_that_is_there_in_two_sizes_is_left() -> None:
 def test_a_scale_of_one_is_none() -> None:
     nodes = '<node id="n1"><scale>1 1 1</scale><instance_node url="#n2"/></node><node id="n2"/>'
     assert mended(physics(BOX, nodes=nodes))[1] == []
+
+
+def test_a_scale_goes_through_the_only_instance_of_a_node() -> None:
+    nodes = '<node id="top"><scale>2 2 2</scale><instance_node url="#n1"/></node>'
+    library = (
+        '<library_nodes><node id="n1"><translate>1 0 0</translate>'
+        '<instance_geometry url="#g"/></node></library_nodes>'
+    )
+    tree = with_mesh(physics(BOX, nodes=nodes))
+    tree.getroot().insert(1, document(library).getroot()[1])
+    seen = visuals(tree.getroot())
+    root, findings = mended(tree)
+    assert [float(w) for w in words(root, "half_extents")] == [2, 4, 6]
+    assert codes(findings) == {"repair-scaled-node"}
+    top, node = node_of(root, "top"), node_of(root)
+    assert transform_of(top) == pytest.approx(np.eye(4))
+    assert transform_of(node)[:3, 3] == pytest.approx([2, 0, 0])
+    assert [url for url, _ in visuals(root)] == [url for url, _ in seen]
+    assert visuals(root)[0][1] == pytest.approx(seen[0][1])
+
+
+def test_a_node_that_is_there_twice_in_two_sizes_is_left() -> None:
+    nodes = (
+        '<node><scale>2 2 2</scale><instance_node url="#n1"/></node>'
+        '<node><instance_node url="#n1"/></node>'
+    )
+    tree = physics(BOX, nodes=nodes)
+    tree.getroot().insert(
+        1, document('<library_nodes><node id="n1"/></library_nodes>').getroot()[1]
+    )
+    root, findings = mended(tree)
+    assert words(root, "half_extents") == ["1", "2", "3"]
+    assert findings == []

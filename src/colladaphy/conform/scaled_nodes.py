@@ -37,30 +37,67 @@ class _Tree:
     fault: str | None = None
 
 
+class _Chains:
+    """The nodes above the nodes of bodies, these included; a node instanced once hangs there."""
+
+    def __init__(self, context: Context, nodes: list[etree._Element]) -> None:
+        uses: dict[etree._Element, list[etree._Element]] = {}
+        for instance in context.all("instance_node"):
+            node, holder = context.by_url(instance.get("url")), instance.getparent()
+            if node is not None and holder is not None and local(holder) == "node":
+                uses.setdefault(node, []).append(instance)
+        self._use = {}
+        for node, found in uses.items():
+            library = node.getparent()
+            if len(found) == 1 and library is not None and local(library) == "library_nodes":
+                self._use[node] = found[0]
+        self._linked = {use: node for node, use in self._use.items()}
+        self.tops: dict[etree._Element, etree._Element] = {}
+        """The top node above every node of the chains."""
+        for node in nodes:
+            self._climb(node)
+
+    def _climb(self, node: etree._Element) -> None:
+        path: dict[etree._Element, None] = {}
+        current: etree._Element | None = node
+        while current is not None and current not in path and current not in self.tops:
+            path[current] = None
+            last, current = current, self._above(current)
+        top = self.tops.get(current, last) if current is not None else last
+        self.tops.update(dict.fromkeys(path, top))
+
+    def _above(self, node: etree._Element) -> etree._Element | None:
+        use = self._use.get(node)
+        parent = node.getparent() if use is None else use.getparent()
+        return parent if parent is not None and local(parent) == "node" else None
+
+    def below(self, node: etree._Element) -> dict[etree._Element, etree._Element]:
+        """The next nodes of the chains, by the child that holds each: a node or its instance."""
+        found = {}
+        for child in node.iterchildren(NS + "node", NS + "instance_node"):
+            inner = self._linked.get(child, child)
+            if inner in self.tops:
+                found[child] = inner
+        return found
+
+
 def apply_scales(context: Context) -> None:
     """Take the scales of bodies' nodes into their shapes, mass frames and attachments."""
     users = _users(context)
-    chains: set[etree._Element] = set()
-    for _, _, node in users:
-        chains.add(node)
-        chains.update(node.iterancestors(NS + "node"))
-    if not any(child.tag in _SCALING for node in chains for child in node):
+    chains = _Chains(context, [node for _, _, node in users])
+    if not any(child.tag in _SCALING for node in chains.tops for child in node):
         return
     trees = {}
-    for node in chains:
-        parent = node.getparent()
-        if parent is None or local(parent) != "node":
-            tree = _Tree(node)
-            try:
-                _factors(tree, chains)
-            except ValueError as error:
-                tree.fault = str(error)
-            trees[node] = tree
+    for top in dict.fromkeys(chains.tops.values()):
+        tree = trees[top] = _Tree(top)
+        try:
+            _factors(tree, chains)
+        except ValueError as error:
+            tree.fault = str(error)
     places = Places(context)
     bodies: dict[etree._Element, list[tuple[_Tree, etree._Element, etree._Element]]] = {}
     for user, body, node in users:
-        *_, top = (node, *node.iterancestors(NS + "node"))
-        bodies.setdefault(body, []).append((trees[top], user, node))
+        bodies.setdefault(body, []).append((trees[chains.tops[node]], user, node))
     # What cannot be scaled keeps the others of its tree from it, too.
     while sum(_judge(context, body, found, places) for body, found in bodies.items()):
         pass
@@ -93,7 +130,7 @@ def _is_uniform(factor: Matrix) -> bool:
     return bool(np.ptp(factor) < _NOISE * np.abs(factor).max())
 
 
-def _factors(tree: _Tree, chains: set[etree._Element]) -> None:
+def _factors(tree: _Tree, chains: _Chains) -> None:
     """The scale at the end of each node; ValueError where it does not go through a transform."""
     waiting = [(tree.top, np.ones(3))]
     while waiting:
@@ -102,8 +139,7 @@ def _factors(tree: _Tree, chains: set[etree._Element]) -> None:
             if local(step) in TRANSFORMS:
                 factor = _through(step, factor)[0]
         tree.factors[node] = factor
-        below = [child for child in node.iterchildren(NS + "node") if child in chains]
-        waiting.extend((child, factor) for child in below)
+        waiting.extend((inner, factor) for inner in chains.below(node).values())
 
 
 def _through(step: etree._Element, factor: Matrix) -> tuple[Matrix, list[float] | None]:
@@ -189,7 +225,7 @@ def _rewrite(
     context: Context,
     trees: list[_Tree],
     bodies: dict[etree._Element, list[tuple[_Tree, etree._Element, etree._Element]]],
-    chains: set[etree._Element],
+    chains: _Chains,
 ) -> None:
     scaling = Scaling(context)
     factors: dict[etree._Element, Matrix] = {}
@@ -212,13 +248,14 @@ def _rewrite(
             _push(context, tree.top, chains)
 
 
-def _push(context: Context, top: etree._Element, chains: set[etree._Element]) -> None:
+def _push(context: Context, top: etree._Element, chains: _Chains) -> None:
     """Move the scales of a tree behind the transforms of each node, and into what it shows."""
     waiting = [(top, np.ones(3))]
     while waiting:
         node, factor = waiting.pop()
         factor, scales = _through_node(context, node, factor)
-        below = [child for child in node if local(child) in _INSTANCES and child not in chains]
+        chain = chains.below(node)
+        below = [child for child in node if local(child) in _INSTANCES and child not in chain]
         if below and not _is_one(factor):
             if len(scales) == 1 and np.array_equal(factor, floats_of(scales[0])):
                 scale = scales[0]
@@ -232,8 +269,7 @@ def _push(context: Context, top: etree._Element, chains: set[etree._Element]) ->
             for child in below:
                 remove(child)
                 append(inner, child)
-        chain = [child for child in node.iterchildren(NS + "node") if child in chains]
-        waiting.extend((child, factor) for child in chain)
+        waiting.extend((inner, factor) for inner in chain.values())
 
 
 def _through_node(
