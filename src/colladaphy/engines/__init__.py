@@ -9,8 +9,9 @@ from colladaphy.engines.diagnostics import (
     potential_energy,
 )
 from colladaphy.engines.digest import digest
+from colladaphy.engines.events import ContactEvent
 from colladaphy.engines.observers import Observer, Trajectory
-from colladaphy.engines.protocol import Capabilities, Contact, Engine
+from colladaphy.engines.protocol import Capabilities, Contact, Engine, Steerable
 from colladaphy.engines.selection import ENGINES, choose, create_engine
 from colladaphy.engines.simulation import DEFAULT_TIME_STEP, Simulation
 
@@ -20,9 +21,11 @@ __all__ = [
     "Capabilities",
     "Checkpoints",
     "Contact",
+    "ContactEvent",
     "Engine",
     "Observer",
     "Simulation",
+    "Steerable",
     "Summary",
     "Trajectory",
     "angular_momentum",

@@ -46,6 +46,10 @@ class Bounds:
         )
         return cls(_MEASURE * way, time_step)
 
+    def widened(self, world: World) -> Bounds:
+        """These, or those of `world` as it is now, whichever are wider."""
+        return Bounds(max(self.way, Bounds.of(world, self.time_step).way), self.time_step)
+
     def check(self, linear: Floats, *others: Floats, step: int) -> None:
         """EngineError unless all is finite and no linear velocity (n, 3) is beyond measure."""
         finite = all(bool(np.all(np.isfinite(values))) for values in (linear, *others))

@@ -7,15 +7,17 @@ from collections.abc import Iterable
 from dataclasses import fields
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
+from weakref import WeakKeyDictionary
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colladaphy.world import Material, PairOverride
 
 if TYPE_CHECKING:
     from colladaphy.world import World
 
-__all__ = ["digest"]
+__all__ = ["digest", "static_digest", "static_parts"]
 
 _MOTION = ("linear_velocities", "angular_velocities", "forces", "torques", "sleeping")
 _POSE = ("positions", "orientations")
@@ -30,42 +32,74 @@ def digest(world: World, *, motion: bool = True) -> str:
     Without `motion`, what changes while a World runs is left out: the poses of bodies that are
     not fixed, velocities, forces, sleep and clock.
     """
-    total = hashlib.sha256()
-    for name, value in _parts(world, motion):
-        if isinstance(value, np.ndarray):
-            array = np.ascontiguousarray(value)
-            little = array.astype(array.dtype.newbyteorder("<"), copy=False)
-            content = little.tobytes()
-            kind = f"{little.dtype.str}{little.shape}"
-        else:
-            content = repr(value).encode("utf-8", "surrogatepass")
-            kind = "repr"
-        total.update(f"{name}:{kind}:{len(content)}\n".encode())
-        total.update(content)
+    still = static_digest(world)
+    if not motion:
+        return still
+    total = hashlib.sha256(still.encode("ascii"))
+    for name, value in _motion(world):
+        _add(total, name, value)
     return total.hexdigest()
 
 
-def _parts(world: World, motion: bool) -> Iterable[tuple[str, Any]]:
+def static_digest(world: World) -> str:
+    """That of all that does not change while `world` runs; computed anew only if it did."""
+    parts = static_parts(world)
+    known = _KNOWN.get(world)
+    if known is not None and known[0] == parts:
+        return known[1]
+    total = hashlib.sha256()
+    for name, value in _static(world):
+        _add(total, name, value)
+    found = total.hexdigest()
+    _KNOWN[world] = parts, found
+    return found
+
+
+_KNOWN: WeakKeyDictionary[World, tuple[list[Any], str]] = WeakKeyDictionary()
+
+
+def static_parts(world: World) -> list[Any]:
+    """Copies of all that does not change while `world` runs, to be compared as a whole."""
+    parts: list[Any] = [
+        world.name, world.unit_name, world.unit_meter, world.up_axis, world.gravity.tobytes(),
+        world.time_step, dict(world.names), dict(world.children), dict(world.joint_names),
+        dict(world.meshes),  # which never change themselves
+        [_MATERIAL(material) for material in world.materials], list(world.pair_overrides),
+    ]  # fmt: skip
+    for _, array in _arrays(world):
+        parts.append(array.tobytes())
+    parts += [column.tobytes() for column in world.joints.columns().values()]
+    parts += [world.mesh_ids.tobytes(), world.member_columns.mesh_ids.tobytes()]
+    return parts
+
+
+def _add(total: Any, name: str, value: Any) -> None:
+    if isinstance(value, np.ndarray):
+        array = np.ascontiguousarray(value)
+        little = array.astype(array.dtype.newbyteorder("<"), copy=False)
+        content = little.tobytes()
+        kind = f"{little.dtype.str}{little.shape}"
+    else:
+        content = repr(value).encode("utf-8", "surrogatepass")
+        kind = "repr"
+    total.update(f"{name}:{kind}:{len(content)}\n".encode())
+    total.update(content)
+
+
+def _motion(world: World) -> Iterable[tuple[str, Any]]:
+    yield "clock", (world.time, world.step_count)
+    yield "counters", (world.next_body_sid, world.next_joint_sid)
+    for name in (*_MOTION, *_POSE):
+        yield name, getattr(world, name)
+
+
+def _static(world: World) -> Iterable[tuple[str, Any]]:
     yield "name", world.name
     yield "unit", (world.unit_name, world.unit_meter)
     yield "up_axis", world.up_axis
     yield "gravity", world.gravity
     yield "time_step", world.time_step
-    if motion:
-        yield "clock", (world.time, world.step_count)
-        yield "counters", (world.next_body_sid, world.next_joint_sid)
-    still = np.asarray(world.fixed)
-    for prefix, columns in (("body", world.columns()), ("member", world.member_columns)):
-        for name in sorted(columns.__slots__):
-            value = getattr(columns, name)
-            if not isinstance(value, np.ndarray) or name == "mesh_ids":
-                continue
-            if prefix == "body" and not motion:
-                if name in _MOTION:
-                    continue
-                if name in _POSE:
-                    value = value[still]
-            yield f"{prefix}.{name}", value
+    yield from _arrays(world)
     yield "meshes", _meshes(world)
     yield "names", sorted(world.names.items())
     yield "children", sorted(world.children.items())
@@ -73,6 +107,21 @@ def _parts(world: World, motion: bool) -> Iterable[tuple[str, Any]]:
         yield f"joint.{name}", column
     yield "joint names", sorted(world.joint_names.items())
     yield from _materials(world)
+
+
+def _arrays(world: World) -> Iterable[tuple[str, NDArray[Any]]]:
+    still = np.asarray(world.fixed)
+    for prefix, columns in (("body", world.columns()), ("member", world.member_columns)):
+        for name in sorted(columns.__slots__):
+            value = getattr(columns, name)
+            if not isinstance(value, np.ndarray) or name == "mesh_ids":
+                continue
+            if prefix == "body":
+                if name in _MOTION:
+                    continue
+                if name in _POSE:
+                    value = value[still]
+            yield f"{prefix}.{name}", value
 
 
 def _meshes(world: World) -> list[str | None]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +18,7 @@ from colladaphy.world import Body, Kind, rotations
 if TYPE_CHECKING:
     from colladaphy.world import World
 
-__all__ = ["LARGEST", "SMALLEST", "TOLERANCE", "Planarity", "analyse"]
+__all__ = ["LARGEST", "SMALLEST", "TOLERANCE", "Planarity", "analyse", "stays_in_plane"]
 
 Floats = NDArray[np.float64]
 
@@ -170,6 +171,14 @@ def _leaving(vectors: Floats, normal: Floats) -> NDArray[Any]:
 def _turning(vectors: Floats, normal: Floats) -> NDArray[Any]:
     flat = vectors - along(vectors, normal)[:, None] * normal
     return np.flatnonzero(np.abs(flat).max(axis=1, initial=0.0) > TOLERANCE * _largest(vectors))
+
+
+def stays_in_plane(frame: Frame, ahead: Iterable[Floats], about: Iterable[Floats]) -> bool:
+    """True if the vectors (n, 3) of `ahead` lie in the plane, and those of `about` across it."""
+    normal = frame.normal
+    return not any(len(_leaving(vectors, normal)) for vectors in ahead) and not any(
+        len(_turning(vectors, normal)) for vectors in about
+    )
 
 
 def _candidates(state: _State) -> list[Floats]:

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from colladaphy.findings import Finding
     from colladaphy.world import JointKind, Kind, World
 
-__all__ = ["Capabilities", "Contact", "Engine"]
+__all__ = ["Capabilities", "Contact", "Engine", "Steerable"]
 
 Vector = tuple[float, float, float]
 
@@ -124,3 +124,17 @@ class Engine(Protocol):
 
     def contacts(self) -> list[Contact]:
         """The contacts of the last step, ordered by system ids; must not disturb the run."""
+
+
+@runtime_checkable
+class Steerable(Protocol):
+    """What an engine can do besides, so that steering a run costs no more than running it."""
+
+    def observe(self, world: World) -> None:
+        """As `Engine.store`, but without `engine_state`: the run goes on."""
+
+    def steer(self, world: World) -> bool:
+        """Take up poses, velocities, forces and torques that were changed since `observe`.
+
+        Nothing else of `world` was changed. False if that needs a `load`.
+        """

@@ -4,24 +4,32 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from contextlib import suppress
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Self
 
 from colladaphy.engines.checkpoints import Checkpoints, read_checkpoint
 from colladaphy.engines.diagnostics import Summary, summarise
-from colladaphy.engines.digest import digest
-from colladaphy.engines.rules import SEED_UNUSED, STEPS, TIME_STEP_DEFAULT, refuse
+from colladaphy.engines.edits import Edits
+from colladaphy.engines.events import ContactEvent, ContactEvents
+from colladaphy.engines.protocol import Steerable
+from colladaphy.engines.rules import (
+    OVERTAKEN,
+    SEED_UNUSED,
+    STATE_NO_ENGINE,
+    STEPS,
+    TIME_STEP_DEFAULT,
+    refuse,
+)
 from colladaphy.engines.selection import choose, create_engine
-from colladaphy.engines.state import recorded_digest, unpack
+from colladaphy.engines.state import recorded_options, unpack
 from colladaphy.errors import EngineError
 from colladaphy.findings import Report, Severity
 
 if TYPE_CHECKING:
     from colladaphy.engines.observers import Observer
     from colladaphy.engines.protocol import Contact, Engine
-    from colladaphy.world import World
+    from colladaphy.world import EngineState, World
 
 __all__ = ["DEFAULT_TIME_STEP", "Simulation"]
 
@@ -32,11 +40,18 @@ _BREATH = 0.05  # seconds between two looks at whether to stop
 class Simulation:
     """Runs `world`, in place, with an engine.
 
-    `engine` is a name, "auto" (pymunk for planar scenes, else MuJoCo) or an `Engine`. `dt` is the
-    time step; without it the World's own, or 1/240. Raises EngineError, with every reason, where
-    the World cannot be run; what is dropped, approximated or assumed is in `report`.
+    `engine` is a name, "auto" (pymunk for planar scenes, else MuJoCo) or an `Engine`, which has
+    its own options: ``MujocoEngine(solver="cg")``. `dt` is the time step; without it the World's
+    own, or 1/240. Raises EngineError, with every reason, where the World cannot be run; what is
+    dropped, approximated or assumed is in `report`.
 
-    Edits of the World between two runs are taken up by the next one.
+    `forces`, called as ``forces(world, time)`` before each step with the World up to date, sets
+    forces and torques, which act during that step. `on_contact` gets a `ContactEvent` whenever two
+    bodies begin or cease to touch.
+
+    Edits of the World between two runs are taken up by the next one. During a run `forces` and
+    observers may change motion and forces, which the running engine takes up; anything else is
+    refused (``engine-edit``).
     """
 
     def __init__(
@@ -45,8 +60,13 @@ class Simulation:
         engine: str | Engine = "auto",
         dt: float | None = None,
         seed: int | None = None,
+        *,
+        forces: Callable[[World, float], object] | None = None,
+        on_contact: Callable[[ContactEvent], object] | None = None,
     ) -> None:
         self.world = world
+        self._forces = forces
+        self._events = ContactEvents(on_contact) if on_contact else None
         self.seed = seed
         self.report = Report()
         if dt is not None:
@@ -67,7 +87,7 @@ class Simulation:
         options = getattr(self.engine, "options", None)
         own = unpack(world, self.engine.name, self.engine.version, options)
         self.report.extend(own.findings)
-        self._seen = ""  # the digest of the World that the engine has
+        self._edits = Edits()
         self._load()
         self.report.extend(getattr(self.engine, "notices", ()))
 
@@ -78,22 +98,26 @@ class Simulation:
         engine: str | Engine = "auto",
         dt: float | None = None,
         seed: int | None = None,
+        *,
+        forces: Callable[[World, float], object] | None = None,
+        on_contact: Callable[[ContactEvent], object] | None = None,
     ) -> Self:
         """Go on from a checkpoint, or from the newest one that is whole in a folder.
 
-        "auto" is the engine that wrote it. The same engine in the same version goes on to the
-        last bit; another one goes on from the World, with a finding. EngineError if there is no
-        checkpoint that is whole; those that are not are in the report.
+        "auto" is the engine that wrote it, with its options, and so is its name: the same engine
+        in the same version goes on to the last bit. Another one goes on from the World, with a
+        finding. EngineError if there is no checkpoint that is whole (those that are not are in the
+        report), or if the engine that wrote it is not there and no other one is named.
         """
         if Path(source).is_dir():
             found = Checkpoints(source).newest()
             world, passed = found.world, found.findings
         else:
             world, passed = read_checkpoint(source), ()
-        if engine == "auto" and world.engine_state is not None:
-            with suppress(EngineError):  # it is not installed: unpacking will say so
-                engine = create_engine(world.engine_state.engine)
-        run = cls(world, engine, dt, seed)
+        state = world.engine_state
+        if state is not None and engine in ("auto", state.engine):
+            engine = _maker(state)
+        run = cls(world, engine, dt, seed, forces=forces, on_contact=on_contact)
         run.report.findings[:0] = passed
         return run
 
@@ -125,19 +149,28 @@ class Simulation:
         intervals = [checkpoint_every] if checkpoints and checkpoint_every else []
         if observers:
             intervals.append(every)
-            _notify(observers, self.world)
+            self._notify(observers)
+        if self._forces or self._events:
+            intervals.append(1)
         pace = _Pace()
         start = count = self.world.step_count
         stale = False
         while count < start + steps and not (stop and stop()):
             chunk = min(start + steps - count, pace.chunk, *(i - count % i for i in intervals))
+            if self._forces:
+                if stale:
+                    self._observe()
+                self._forces(self.world, self.world.time)
+                self._steer()
             stale = True
             self._step(chunk, pace)
             count += chunk
+            if self._events:
+                self._events.notice(self.engine.contacts(), count)
             if observers and count % every == 0:
-                self._store()
+                self._observe()
                 stale = False
-                _notify(observers, self.world)
+                self._notify(observers)
             if checkpoints and checkpoint_every and count % checkpoint_every == 0:
                 if before_checkpoint:
                     before_checkpoint()
@@ -145,7 +178,7 @@ class Simulation:
                 stale = False
             if progress:
                 progress(count - start)
-        if stale:
+        if count > start:
             self._store()
         return self.summary()
 
@@ -175,24 +208,59 @@ class Simulation:
         self._load()
 
     def _load(self) -> None:
-        self._seen = ""
+        self._edits.forget()
         self.engine.load(self.world, seed=self.seed)
-        self._seen = digest(self.world)
+        self._edits.remember(self.world)
 
     def _store(self) -> None:
         self.engine.store(self.world)
-        state = self.world.engine_state
-        self._seen = (recorded_digest(state) if state else None) or digest(self.world)
+        self._edits.remember(self.world)
+
+    def _observe(self) -> None:
+        """Bring the World up to date for somebody who looks at it."""
+        if isinstance(self.engine, Steerable):
+            self.engine.observe(self.world)
+            self._edits.remember_motion(self.world)
+        else:
+            self._store()
 
     def _step(self, count: int, pace: _Pace) -> None:
-        seen, self._seen = self._seen, ""  # an engine that failed is loaded anew
-        with pace:
-            self.engine.step(count)
+        try:
+            with pace:
+                self.engine.step(count)
+        except BaseException:
+            self._edits.forget()  # an engine that failed is loaded anew
+            raise
         pace.done(count)
-        self._seen = seen
+
+    def _notify(self, observers: Sequence[Observer]) -> None:
+        for observer in observers:
+            observer(self.world)
+        self._steer()
+
+    def _steer(self) -> None:
+        """Take up in the running engine what was changed while it runs, or refuse it."""
+        edits = self._edits
+        if edits.reshaped(self.world):
+            raise refuse(OVERTAKEN, "More than motion and forces was changed during a run.")
+        if edits.moved(self.world):
+            self._take_up_motion()
+
+    def _take_up_motion(self) -> None:
+        engine = self.engine
+        if isinstance(engine, Steerable) and engine.steer(self.world):
+            self._edits.remember_motion(self.world)
+            return
+        errors = [f for f in engine.check(self.world) if f.severity is Severity.ERROR]
+        if errors:
+            raise EngineError(errors)
+        self._load()
 
     def _take_up_edits(self) -> None:
-        if self._seen == digest(self.world):
+        edits = self._edits
+        if edits.known and not edits.replaced(self.world):
+            if edits.moved(self.world):
+                self._take_up_motion()
             return
         errors = [f for f in self.engine.check(self.world) if f.severity is Severity.ERROR]
         if errors:
@@ -208,9 +276,16 @@ class Simulation:
         return summarise(self.world, self.engine.name, len(self.contacts()))
 
 
-def _notify(observers: Sequence[Observer], world: World) -> None:
-    for observer in observers:
-        observer(world)
+def _maker(state: EngineState) -> Engine:
+    """The engine that wrote a state, with its options; EngineError if it is not there."""
+    try:
+        return create_engine(state.engine, **(recorded_options(state) or {}))
+    except EngineError as error:
+        message = (
+            f"The checkpoint was written by the engine {state.engine!r} {state.version}, which is "
+            "not there."
+        )
+        raise EngineError((STATE_NO_ENGINE.at(message=message), *error.findings)) from error
 
 
 class _Pace:

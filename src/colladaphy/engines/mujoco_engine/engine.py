@@ -12,6 +12,7 @@ import numpy as np
 from colladaphy.engines.bounds import Bounds
 from colladaphy.engines.clock import Clock
 from colladaphy.engines.digest import digest
+from colladaphy.engines.edits import changed
 from colladaphy.engines.mujoco_engine import memory, refusals
 from colladaphy.engines.mujoco_engine.contacts import Touches
 from colladaphy.engines.mujoco_engine.model import Model, build
@@ -59,6 +60,7 @@ class MujocoEngine:
         self._clock = Clock(0.0, 0, 1.0)
         self._stepper: Stepper | None = None
         self._bounds = Bounds(np.inf, 0.0)
+        self._given: list[Any] = []  # poses and velocities that the World and MuJoCo agree in
         self._pushed = False
         self._stepped = False
 
@@ -105,10 +107,8 @@ class MujocoEngine:
             if own is None or not memory.recall(compiled, self._data, own):
                 self._motion.put(world, self._data)
                 self.notices = list(refusals.overlaps(world, self._model, self._data))
-        rows, ids = self._motion.rows, self._motion.ids
-        push = np.concatenate([world.forces[rows], world.torques[rows]], axis=1)
-        self._data.xfrc_applied[ids] = push
-        self._pushed = bool(np.any(push))
+        self._given = self._motion.columns(world)
+        self._push(world)
 
     def step(self, count: int = 1) -> None:
         """See `Engine.step`."""
@@ -146,7 +146,14 @@ class MujocoEngine:
 
     def store(self, world: World) -> None:
         """See `Engine.store`."""
-        assert self._model is not None and self._motion is not None
+        assert self._model is not None
+        self.observe(world)
+        own = memory.remember(self._model.compiled, self._data)
+        pack(world, self.name, self.version, own, self.options)
+
+    def observe(self, world: World) -> None:
+        """See `Steerable.observe`."""
+        assert self._motion is not None
         motion, rows = self._motion, self._motion.rows
         if self._stepped:
             with _quiet():
@@ -156,8 +163,28 @@ class MujocoEngine:
             asleep = np.append(self._data.tree_asleep, -1) >= 0  # tree -1: held by what is fixed
             world.sleeping[rows] = asleep[motion.trees]
         self._clock.store(world)
-        own = memory.remember(self._model.compiled, self._data)
-        pack(world, self.name, self.version, own, self.options)
+        self._given = motion.columns(world)
+
+    def steer(self, world: World) -> bool:
+        """See `Steerable.steer`. A body that is moved by hand has to be woken: that is a load."""
+        motion = self._motion
+        if motion is None or self._options.sleep or Clock.of(world) != self._clock:
+            return False
+        given = motion.columns(world)
+        if any(changed(one, other) for one, other in zip(given, self._given, strict=True)):
+            with _quiet():
+                motion.put(world, self._data)
+        self._given = given
+        self._push(world)
+        self._bounds = self._bounds.widened(world)
+        return True
+
+    def _push(self, world: World) -> None:
+        assert self._motion is not None
+        rows, ids = self._motion.rows, self._motion.ids
+        push = np.concatenate([world.forces[rows], world.torques[rows]], axis=1)
+        self._data.xfrc_applied[ids] = push
+        self._pushed = bool(np.any(push))
 
     def contacts(self) -> list[Contact]:
         """See `Engine.contacts`."""

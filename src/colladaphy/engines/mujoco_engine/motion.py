@@ -54,6 +54,14 @@ class Motion:
         self._linear = velocities[:, None] + np.arange(3)
         self._angular = velocities[:, None] + np.arange(3, 6)
 
+    def columns(self, world: World) -> list[NDArray[Any]]:
+        """Copies of poses and velocities of the bodies that move."""
+        rows = self.rows
+        return [
+            world.positions[rows], world.orientations[rows], world.linear_velocities[rows],
+            world.angular_velocities[rows],
+        ]  # fmt: skip
+
     def put(self, world: World, data: Any) -> None:
         """Set positions and velocities of `data` from the World."""
         rows = self._free_rows

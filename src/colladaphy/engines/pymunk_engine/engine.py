@@ -13,7 +13,7 @@ from colladaphy.engines.clock import Clock
 from colladaphy.engines.jointed import fastest, joint_findings
 from colladaphy.engines.options import Value
 from colladaphy.engines.outlines import HalfPlane
-from colladaphy.engines.planar import Planarity, analyse
+from colladaphy.engines.planar import Planarity, analyse, stays_in_plane
 from colladaphy.engines.protocol import Capabilities, Contact
 from colladaphy.engines.pymunk_engine.contacts import contacts_of
 from colladaphy.engines.pymunk_engine.links import Link, plan
@@ -61,6 +61,7 @@ class PymunkEngine:
         self._orientations: Any = np.zeros((0, 4))
         self._clock = Clock(0.0, 0, 1.0)
         self._bounds = Bounds(np.inf, 0.0)
+        self._poses = self._speeds = (b"", b"")  # as the World and pymunk last agreed in
         self._stepped = False
 
     @property
@@ -89,6 +90,7 @@ class PymunkEngine:
         self._plan, self._model = planarity, model
         self.notices = list(_overlaps(world, model, links, planarity.size)) if fresh else []
         self._bounds = Bounds.of(world, clock.time_step)
+        self._poses, self._speeds = _poses(world), _speeds(world)
         moving = ~world.fixed
         self._heights = planarity.frame.height(world.positions[moving])
         self._orientations = world.orientations[moving]
@@ -125,6 +127,11 @@ class PymunkEngine:
 
     def store(self, world: World) -> None:
         """See `Engine.store`."""
+        self.observe(world)
+        pack(world, self.name, self.version, options=self.options)
+
+    def observe(self, world: World) -> None:
+        """See `Steerable.observe`."""
         assert self._model is not None and self._plan is not None
         if self._stepped:
             frame, state = self._plan.frame, self._state()
@@ -141,7 +148,31 @@ class PymunkEngine:
             world.forces[rows] = 0.0
             world.torques[rows] = 0.0
         self._clock.store(world)
-        pack(world, self.name, self.version, options=self.options)
+        self._poses, self._speeds = _poses(world), _speeds(world)
+
+    def steer(self, world: World) -> bool:
+        """See `Steerable.steer`. Poses need a load, as angles count from it."""
+        if self._model is None or self._plan is None or self._options.sleep:
+            return False
+        if Clock.of(world) != self._clock or _poses(world) != self._poses:
+            return False
+        frame, model = self._plan.frame, self._model
+        rows = np.searchsorted(world.sids, np.array(model.sids, dtype=np.int64))
+        ahead = (world.linear_velocities[rows], world.forces[rows])
+        about = (world.angular_velocities[rows], world.torques[rows])
+        if not stays_in_plane(frame, ahead, about):
+            return False  # the load says so, and names the bodies
+        flat = [frame.flat(vectors).tolist() for vectors in ahead]
+        turns = [frame.height(vectors).tolist() for vectors in about]
+        speeds = _speeds(world)
+        hit = speeds != self._speeds  # or else they would be rounded
+        self._speeds = speeds
+        for body, velocity, force, spin, torque in zip(model.bodies, *flat, *turns, strict=True):
+            if hit:
+                body.velocity, body.angular_velocity = tuple(velocity), spin
+            body.force, body.torque = tuple(force), torque
+        self._bounds = self._bounds.widened(world)
+        return True
 
     def contacts(self) -> list[Contact]:
         """See `Engine.contacts`."""
@@ -197,6 +228,14 @@ def _overlaps(world: World, model: Model, links: list[Link], size: float) -> Ite
             one, two = world.body(link.first), world.body(link.second)
             message = f"{one!r} and {two!r} are joined, and overlap by {max(depths):g}."
             yield JOINT_OVERLAP.at(message=message)
+
+
+def _poses(world: World) -> tuple[bytes, bytes]:
+    return world.positions.tobytes(), world.orientations.tobytes()
+
+
+def _speeds(world: World) -> tuple[bytes, bytes]:
+    return world.linear_velocities.tobytes(), world.angular_velocities.tobytes()
 
 
 def _turned(orientations: Any, normal: Any, angles: Any) -> Any:

@@ -1,0 +1,174 @@
+"""Steering a run: forces at every step, edits taken up or refused, contact events, options."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from colladaphy.engines import (
+    ContactEvent,
+    Engine,
+    Simulation,
+    create_engine,
+)
+from colladaphy.engines.state import recorded_options
+from colladaphy.errors import EngineError
+from colladaphy.world import World, compare
+
+
+def ball(empty: Any, **options: Any) -> World:
+    world: World = empty((0, 0, 0))
+    world.create_sphere(1, (0, 0, 0), 0.5, "ball", **options)
+    return world
+
+
+def counting(engine: Engine, monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Notes every load of an engine."""
+    loads: list[str] = []
+    load = type(engine).load
+
+    def counted(self: Any, *arguments: Any, **options: Any) -> None:
+        loads.append(self.name)
+        load(self, *arguments, **options)
+
+    monkeypatch.setattr(type(engine), "load", counted)
+    return loads
+
+
+def test_forces_of_a_callback(engine: Engine, empty: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A spring of the user's own: cos(ω t), at every step, and never a reload."""
+    world = ball(empty, linear_velocity=(0, 0, 0))
+    body = world.body(1)
+    body.position = (1, 0, 0)
+    loads, times = counting(engine, monkeypatch), []
+
+    def pull(seen: World, time: float) -> None:
+        assert seen is world and time == world.time
+        times.append(time)
+        body.force = -9.0 * body.mass * body.position
+
+    simulation = Simulation(world, engine, forces=pull)
+    simulation.run(240)
+    assert len(times) == 240 and len(loads) == 1
+    assert body.position[0] == pytest.approx(math.cos(3.0), abs=0.03)
+    assert world.forces.tolist() == [[0, 0, 0]]
+
+
+def test_edits_between_runs_need_no_reload(
+    engine: Engine, empty: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    world = ball(empty)
+    body = world.body(1)
+    loads = counting(engine, monkeypatch)
+    simulation = Simulation(world, engine)
+    for _ in range(24):
+        body.force = (10 * body.mass, 0, 0)
+        simulation.run(1)
+    assert body.linear_velocity[0] == pytest.approx(1.0)
+    body.linear_velocity = (0, 0, 2)
+    simulation.run(240)
+    assert body.position[2] == pytest.approx(2.0, abs=0.01)
+    assert len(loads) == 1
+    body.position = (0, 0, 5)
+    simulation.run(1)
+    assert body.position[2] == pytest.approx(5.0, abs=0.01)
+    world.create_sphere(2, (0, 0, 9), 0.5, "ball", linear_velocity=(0, 0, 1))
+    simulation.run(240)
+    assert world.body(2).position[2] == pytest.approx(10.0, abs=0.01)
+    world.gravity = (0, 0, -10)
+    before = body.linear_velocity[2]
+    simulation.run(24)
+    assert body.linear_velocity[2] == pytest.approx(before - 1.0)
+
+
+def test_observers_steer_and_are_refused_what_they_cannot(engine: Engine, empty: Any) -> None:
+    world = ball(empty)
+    body = world.body(1)
+
+    def kick(seen: World) -> None:
+        if seen.step_count == 24:
+            body.linear_velocity = (1, 0, 0)
+
+    simulation = Simulation(world, engine)
+    simulation.run(264, observers=[kick], every=8)
+    assert body.position[0] == pytest.approx(1.0, abs=0.01)
+
+    def build(seen: World) -> None:
+        if seen.step_count == 272:
+            seen.create_sphere(2, (0, 0, 9), 0.5, "ball")
+
+    with pytest.raises(EngineError, match="engine-edit"):
+        simulation.run(24, observers=[build], every=8)
+    assert simulation.run(8).step_count == 280  # and between two runs it is taken up
+
+
+def test_a_steered_run_is_resumed_to_the_last_bit(engine: Engine, empty: Any,
+                                                  tmp_path: Path) -> None:  # fmt: skip
+    def push(world: World, time: float) -> None:
+        body = world.body(2)
+        body.force = (body.mass * math.sin(9 * time), 0, 0)
+
+    world = empty((0, 0, -9.81), friction=0.5)
+    world.create_plane(1, (0, 0, 1), 0, "ball")
+    world.create_box(2, (0, 0, 0.6), (1, 1, 1), "ball")
+    going = Simulation(world, engine, forces=push)
+    going.run(50)
+    file = going.checkpoint(tmp_path / "a.dae")
+    resumed = Simulation.resume(file, forces=push)
+    for _ in range(3):
+        going.run(50)
+        resumed.run(50)
+        assert compare(going.world, resumed.world) == []
+
+
+def test_contact_events(engine: Engine, empty: Any) -> None:
+    world = empty((0, 0, -9.81), restitution=0.5)
+    world.create_plane(1, (0, 0, 1), 0, "ball")
+    world.create_sphere(2, (0, 0, 1.0), 0.5, "ball")
+    events: list[ContactEvent] = []
+    Simulation(world, engine, on_contact=events.append).run(200)
+    assert [event.began for event in events[:4]] == [True, False, True, False]
+    assert all((event.first, event.second) == (1, 2) for event in events)
+    assert all(bool(event.contacts) is event.began for event in events)
+    fall = math.sqrt(2 * 0.5 / 9.81)
+    assert events[0].step_count / 240 == pytest.approx(fall, abs=2 / 240)
+
+
+@pytest.mark.parametrize("name", ["pymunk", "mujoco"])
+def test_options_are_checked_and_resumed_with(name: str, empty: Any, tmp_path: Path) -> None:
+    for bad in ({"solvr": "cg"}, {"sleep": "perhaps"}, {"friction": "least"}, {"sleep": 3}):
+        with pytest.raises(EngineError, match="engine-option"):
+            create_engine(name, **bad)
+    engine = create_engine(name, sleep="on", friction="average")
+    world = ball(empty)
+    going = Simulation(world, engine)
+    going.run(5)
+    file = going.checkpoint(tmp_path / "a.dae")
+    state = world.engine_state
+    assert state is not None
+    chosen = recorded_options(state)
+    assert chosen is not None and chosen["sleep"] is True and chosen["friction"] == "average"
+    for resumed in (Simulation.resume(file), Simulation.resume(file, name)):
+        assert resumed.engine.options == engine.options
+        assert not [f for f in resumed.report if "state" in f.code]
+    other = Simulation.resume(file, create_engine(name))
+    assert "engine-state-options" in {finding.code for finding in other.report}
+
+
+def test_a_checkpoint_of_an_unknown_engine_is_no_silent_other_one(
+    empty: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    engine = create_engine("pymunk")
+    monkeypatch.setattr(type(engine), "name", "havok")
+    file = Simulation(ball(empty), engine).checkpoint(tmp_path / "a.dae")
+    monkeypatch.undo()
+    with pytest.raises(EngineError, match="engine-state-no-engine") as caught:
+        Simulation.resume(file)
+    assert "havok" in str(caught.value)
+    named = Simulation.resume(file, "pymunk")
+    assert "engine-state-engine" in {finding.code for finding in named.report}
+    np.testing.assert_array_equal(named.world.positions, [[0, 0, 0]])
