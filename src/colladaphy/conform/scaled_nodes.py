@@ -58,13 +58,14 @@ class _Chains:
             self._climb(node)
 
     def _climb(self, node: etree._Element) -> None:
-        path: dict[etree._Element, None] = {}
-        current: etree._Element | None = node
-        while current is not None and current not in path and current not in self.tops:
-            path[current] = None
-            last, current = current, self._above(current)
-        top = self.tops.get(current, last) if current is not None else last
-        self.tops.update(dict.fromkeys(path, top))
+        path = {node: None}
+        top = node
+        while top not in self.tops and (above := self._above(top)) is not None:
+            if above in path:
+                break
+            path[above] = None
+            top = above
+        self.tops.update(dict.fromkeys(path, self.tops.get(top, top)))
 
     def _above(self, node: etree._Element) -> etree._Element | None:
         use = self._use.get(node)
