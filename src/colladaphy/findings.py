@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from typing import TYPE_CHECKING, Any
@@ -16,7 +18,16 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from lxml.etree import _Element
 
-__all__ = ["STAGES", "Finding", "Report", "Rule", "Severity", "element_path"]
+__all__ = [
+    "STAGES",
+    "Finding",
+    "Paths",
+    "Report",
+    "Rule",
+    "Severity",
+    "element_path",
+    "unchanging",
+]
 
 STAGES = ("io", "xml", "upgrade", "repair", "convention", "schema", "link", "load", "store",
           "physics", "profile", "engine", "downgrade")  # fmt: skip
@@ -180,11 +191,27 @@ class Report:
         return True
 
 
+@contextmanager
+def unchanging() -> Iterator[None]:
+    """While no tree changes, the paths of many elements take time in proportion to their number.
+
+    Outside, siblings are counted anew for every path.
+    """
+    token = _PATHS.set(_PATHS.get() or Paths())
+    try:
+        yield
+    finally:
+        _PATHS.reset(token)
+
+
 def element_path(element: _Element) -> str:
     """The path of an lxml element from its root, by local names.
 
     A position in brackets is given where an element has siblings of the same local name.
     """
+    paths = _PATHS.get()
+    if paths is not None:
+        return paths.path(element)
     steps: list[str] = []
     node: _Element | None = element
     while node is not None:
@@ -197,6 +224,43 @@ def element_path(element: _Element) -> str:
         steps.append(name)
         node = parent
     return "/" + "/".join(reversed(steps))
+
+
+class Paths:
+    """Paths and places of nodes in trees that do not change; linear for any number."""
+
+    def __init__(self) -> None:
+        self._steps: dict[_Element, tuple[str, int]] = {}
+
+    def path(self, element: _Element) -> str:
+        """The path as `element_path` gives it."""
+        return "/" + "/".join(self._step(node)[0] for node in _chain(element))
+
+    def order(self, element: _Element) -> tuple[int, ...]:
+        """A key that sorts nodes by their place in the document."""
+        return tuple(self._step(node)[1] for node in _chain(element))
+
+    def _step(self, element: _Element) -> tuple[str, int]:
+        step = self._steps.get(element)
+        if step is None:
+            parent = element.getparent()
+            siblings = [element] if parent is None else list(parent)
+            names = [_local(sibling) for sibling in siblings]
+            totals = Counter(names)
+            seen: Counter[str] = Counter()
+            for index, (sibling, name) in enumerate(zip(siblings, names, strict=True)):
+                seen[name] += 1
+                shown = f"{name}[{seen[name]}]" if totals[name] > 1 else name
+                self._steps[sibling] = (shown, index)
+            step = self._steps[element]
+        return step
+
+
+_PATHS: ContextVar[Paths | None] = ContextVar("paths of trees that do not change", default=None)
+
+
+def _chain(element: _Element) -> list[_Element]:
+    return [*reversed(list(element.iterancestors())), element]
 
 
 def _alike(node: _Element, name: str) -> tuple[int, bool]:

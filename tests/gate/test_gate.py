@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from colladaphy.findings import Finding
-from colladaphy.gate import gate, is_valid_text, schema_folder
+from colladaphy.gate import faults, gate, is_valid_text, schema_folder
 from colladaphy.source import COLLADA_1_5, parse
 
 ASSET = (
@@ -223,8 +225,6 @@ def test_very_many_siblings_are_validated_in_blocks_with_the_same_result(
 
 def test_a_flood_of_errors_takes_time_in_proportion(monkeypatch: pytest.MonkeyPatch) -> None:
     """No run of the validator sees more siblings than a block has."""
-    from colladaphy.gate import faults
-
     seen: list[int] = []
     validate = faults._validate
 
@@ -238,8 +238,25 @@ def test_a_flood_of_errors_takes_time_in_proportion(monkeypatch: pytest.MonkeyPa
     assert max(seen) < 5000
 
 
-def test_a_large_valid_document_is_validated_at_once() -> None:
-    assert gate(parse(document(model("\n".join([body(SHAPE)] * 5000)))).tree) == []
+@pytest.mark.parametrize("faulty", [None, 0, 2, 9998])
+def test_a_large_document_is_validated_at_once_for_a_fault(
+    monkeypatch: pytest.MonkeyPatch, faulty: int | None
+) -> None:
+    """Wherever the fault is: in the sample, too."""
+    bodies = [body(SHAPE)] * 10_000
+    if faulty is not None:
+        bodies[faulty] = body("<mass>x</mass>" + SHAPE)
+    tree = parse(document(model("\n".join(bodies)))).tree
+    runs: list[int] = []
+    validate = faults._validate
+
+    def watched(tree: Any) -> Any:
+        runs.append(len(tree.getroot()[1][0]))
+        return validate(tree)
+
+    monkeypatch.setattr(faults, "_validate", watched)
+    assert len(gate(tree)) == (faulty is not None)
+    assert runs[1:] == [10_000] and runs[0] < 500
 
 
 @pytest.mark.parametrize("blank", ["", " ", "\n\t"])

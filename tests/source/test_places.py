@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 
-from colladaphy.findings import element_path
+from colladaphy.findings import element_path, unchanging
 from colladaphy.source.places import locate
 
 
@@ -46,5 +46,8 @@ def test_encodings() -> None:
 def test_every_element_is_found_where_libxml2_has_it(text: str) -> None:
     root = etree.fromstring(text)
     paths = {element_path(element): element.sourceline for element in root.iter(etree.Element)}
+    one_by_one = [element_path(node) for node in root.iter()]
+    with unchanging():
+        assert [element_path(node) for node in root.iter()] == one_by_one
     found = locate(text.encode(), paths)
     assert {path: line for path, (line, _) in found.items()} == paths

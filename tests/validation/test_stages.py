@@ -231,3 +231,18 @@ def test_the_corpus_is_reported_without_errors_of_ours(corpus_dir: Path) -> None
         assert report.errors, path.name
         assert all(finding.file == str(path) for finding in report)
         assert all(finding.hint for finding in report.errors)
+
+
+def test_many_findings_take_time_in_proportion(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Siblings are not counted anew for every finding."""
+
+    def counted(*_: object) -> None:
+        raise AssertionError("siblings are counted for one element")
+
+    monkeypatch.setattr("colladaphy.findings._alike", counted)
+    instance = b'<instance_rigid_body body="ball" target="#none"><technique_common/>'
+    instances = (instance + b"</instance_rigid_body>\n") * 1000
+    data = VALID.replace(b"<instance_rigid_constraint", instances + b"<instance_rigid_constraint")
+    found = [finding for finding in validate(data) if "#none" in finding.message]
+    assert len({finding.path for finding in found}) == 1000
+    assert [finding.line for finding in found] == sorted(finding.line or 0 for finding in found)

@@ -2,7 +2,7 @@
 
 For every error libxml2 writes down the path of its element, and counts siblings for it: with n
 faulty siblings that is n² steps, minutes for a hundred thousand. So where an element has very many
-children, a random sample of them is validated first. If that finds nothing, errors are rare, and
+children, a random sample of them is validated first. If that finds little, errors are rare, and
 the whole tree is validated at once. Otherwise copies of the tree are validated that hold one block
 of the children each.
 """
@@ -28,6 +28,8 @@ _Kept = dict[etree._Element, list[etree._Element]]
 _WIDE = 4000
 _SAMPLE = (40, 300)
 """How many children are tried: one in a hundred, but at least and at most so many."""
+_FEW = 5000
+"""So many errors cost less in the whole tree, with their paths, than blocks would."""
 # Where bodies, instances, nodes and primitives are; deeper ones would cost every document dear.
 _LEVELS = 5
 # A child that has so many before it; to ask every element whether it has one takes twice the time.
@@ -47,7 +49,9 @@ def validate_in_blocks(
 ) -> list[Complaint]:
     """What `validate` says about `tree`, whose elements `parents` have very many children."""
     sample = {parent: _sampled(_children(parent)) for parent in parents}
-    if not _validate_reduced(tree, sample, validate):
+    found = len(_validate_reduced(tree, sample, validate))
+    share = min(len(sample[parent]) / len(parent) for parent in parents)
+    if found < _FEW * share:
         return validate(tree)
     thin = {parent: _thinned(_children(parent)) for parent in parents}
     complaints: dict[Complaint, None] = {}

@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections import defaultdict
 
 from lxml import etree
 from lxml.etree import _Element
+
+from colladaphy.findings import Paths
 
 __all__ = ["Places"]
 
 _STEP = re.compile(r"([^/\[\]]+)(?:\[(\d+)\])?")
 
 
-class Places:
-    """Elements by libxml2's paths, and paths and places of elements; linear for any number."""
+class Places(Paths):
+    """Elements by libxml2's paths, beside paths of elements; linear for any number."""
 
     def __init__(self, root: _Element) -> None:
+        super().__init__()
         self._root = root
         self._elements: dict[str, _Element] = {}
         self._children: dict[_Element, list[_Element]] = {}
         self._named: dict[tuple[_Element, str], list[_Element]] = {}
-        self._steps: dict[_Element, tuple[str, int]] = {root: (_local(root), 0)}
 
     def element(self, path: str) -> _Element:
         """The element that a path such as ``/*/*[2]/pe:body`` means."""
@@ -31,17 +32,6 @@ class Places:
             known = self._child(self.element(parent), step) if parent else self._root
             self._elements[path] = known
         return known
-
-    def path(self, element: _Element) -> str:
-        """The path of an element as findings give it."""
-        return "/" + "/".join(self._step(node)[0] for node in self._chain(element))
-
-    def order(self, element: _Element) -> tuple[int, ...]:
-        """A key that sorts elements by their place in the document."""
-        return tuple(self._step(node)[1] for node in self._chain(element))
-
-    def _chain(self, element: _Element) -> list[_Element]:
-        return [*reversed(list(element.iterancestors())), element]
 
     def _child(self, parent: _Element, step: str) -> _Element:
         match = _STEP.fullmatch(step)
@@ -65,24 +55,6 @@ class Places:
             children = list(parent.iterchildren(etree.Element))
             self._children[parent] = children
         return children
-
-    def _step(self, element: _Element) -> tuple[str, int]:
-        step = self._steps.get(element)
-        if step is None:
-            parent = element.getparent()
-            assert parent is not None
-            children = self._all(parent)
-            names = [_local(child) for child in children]
-            totals: defaultdict[str, int] = defaultdict(int)
-            for name in names:
-                totals[name] += 1
-            seen: defaultdict[str, int] = defaultdict(int)
-            for index, (child, name) in enumerate(zip(children, names, strict=True)):
-                seen[name] += 1
-                shown = f"{name}[{seen[name]}]" if totals[name] > 1 else name
-                self._steps[child] = (shown, index)
-            step = self._steps[element]
-        return step
 
 
 def _local(element: _Element) -> str:

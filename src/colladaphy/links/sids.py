@@ -30,9 +30,12 @@ class Sids:
 
         What stands in a technique of some profile is that profile's own affair.
         """
+        elements = self._known.get(sid)
+        if elements is None:  # the end of a scope is dear to find
+            return None
         end = self.columns.end_of(scope)
         best: tuple[int, int] | None = None
-        for element in self._known.get(sid, ()):
+        for element in elements:
             if scope < element < end:
                 depth = self._depth_below(scope, element)
                 if depth is not None and (best is None or (depth, element) < best):

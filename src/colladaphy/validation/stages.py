@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from colladaphy.errors import InputError, XmlError
-from colladaphy.findings import Report
+from colladaphy.findings import Report, unchanging
 from colladaphy.gate import gate
 from colladaphy.gate.numerals import incomplete_numbers
 from colladaphy.links.resource import Resource
@@ -51,7 +51,8 @@ def validate(source: Source, *, limits: Limits | None = None) -> Report:
     report.extend(gate(parsed.tree))
     report.extend(incomplete_numbers(parsed.tree, loaded.data))
     if report.valid:
-        report.extend(check_links(_resource(parsed, loaded.data, report, {})))
+        with unchanging():
+            report.extend(check_links(_resource(parsed, loaded.data, report, {})))
     _locate(report, loaded.data)
     return report
 
