@@ -22,7 +22,7 @@ __all__ = [
     "wrap_bare_instances",
 ]
 
-_NOTHING = "no-geometry"
+_NOTHING = "NoShape"
 _MESHES = ("triangles", "polylist", "polygons", "trifans", "tristrips")
 
 
