@@ -7,21 +7,45 @@ everywhere (COLLADA 1.5 §Address syntax, thesis 3.1).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol, Self, TypeVar
 from urllib.parse import unquote
 
+from lxml import etree
+
+from colladaphy.columns.reading import Document as Columns
 from colladaphy.errors import DocumentError
 from colladaphy.findings import Rule
 from colladaphy.links import rules
 from colladaphy.links.sids import Sids
 
-if TYPE_CHECKING:
-    from colladaphy.links.resource import Resource
+__all__ = ["Linked", "follow", "split_reference"]
 
-__all__ = ["follow", "split_reference"]
 
-Target = tuple["Resource", int]
-"""A document, and the number of an element in it."""
+class Linked(Protocol):
+    """A document as references see it: what leads to elements, and to other documents."""
+
+    file: str | None
+
+    @property
+    def columns(self) -> Columns:
+        """The document as columns."""
+
+    @property
+    def ids(self) -> dict[str, int]:
+        """The first element of every id."""
+
+    @property
+    def sids(self) -> Sids:
+        """The elements by scoped id."""
+
+    def element(self, number: int) -> etree._Element:
+        """The element of a number, in the tree."""
+
+    def related(self, file: str, origin: int) -> Self:
+        """The document that a relative reference names."""
+
+
+_Document = TypeVar("_Document", bound=Linked)
 
 
 def split_reference(reference: str) -> tuple[str, str, list[str]]:
@@ -43,9 +67,11 @@ def _names_file(reference: str) -> bool:
 
 
 def follow(
-    resource: Resource, reference: str, origin: int, expected: str | tuple[str, ...] = ()
-) -> Target:
-    """The element that `reference` at the element `origin` leads to; its name is one of `expected`.
+    resource: _Document, reference: str, origin: int, expected: str | tuple[str, ...] = ()
+) -> tuple[_Document, int]:
+    """Where `reference` at the element `origin` leads to: an element with an `expected` name.
+
+    The document comes with the number of the element in it.
 
     Raises DocumentError where there is none, or one of another name.
     """
@@ -74,7 +100,7 @@ def follow(
     return target, element
 
 
-def _start(resource: Resource, head: str, origin: int | None) -> int | None:
+def _start(resource: Linked, head: str, origin: int | None) -> int | None:
     if head == ".":
         return None if origin is None else max(resource.columns.parent_of(origin), 0)
     if not head:
@@ -92,7 +118,7 @@ def _from_nearest_scope(sids: Sids, sid: str, origin: int) -> int | None:
     return None
 
 
-def _with_base(resource: Resource, file: str, origin: int) -> str:
+def _with_base(resource: Linked, file: str, origin: int) -> str:
     """`file` relative to the document, with every xml:base on the way up applied."""
     element = origin
     while element >= 0:
@@ -104,8 +130,6 @@ def _with_base(resource: Resource, file: str, origin: int) -> str:
     return file
 
 
-def _refusal(
-    rule: Rule, resource: Resource, origin: int, reference: str, why: str
-) -> DocumentError:
+def _refusal(rule: Rule, resource: Linked, origin: int, reference: str, why: str) -> DocumentError:
     message = f"The reference {reference!r} cannot be followed: {why}."
     return DocumentError(rule.at(resource.element(origin), message, file=resource.file))

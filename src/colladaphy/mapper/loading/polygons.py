@@ -7,15 +7,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["triangulated"]
+__all__ = ["corner_layout", "triangulated"]
 
 Array = NDArray[Any]
 
 
+def corner_layout(rows: Any) -> tuple[Array, Array]:
+    """How many indices a corner of primitives has (n,), and which is that of the vertex (n,)."""
+    count = len(rows)
+    inputs = rows.input
+    stride = np.ones(count, np.int64)
+    np.maximum.at(stride, inputs.owner, inputs.offset.astype(np.int64) + 1)
+    offset = np.zeros(count, np.int64)
+    vertex = np.array([semantic == "VERTEX" for semantic in inputs.semantic], np.bool_)
+    offset[inputs.owner[vertex]] = inputs.offset[vertex]
+    return stride, offset
+
+
 def triangulated(rows: Any, name: str, points: list[Array]) -> list[Array]:
     """The triangles (m, 3) of each group of primitives; `points` are those of its mesh."""
-    from colladaphy.mapper.loading.surfaces import corner_layout
-
     stride, offset = corner_layout(rows)
     lists: list[list[tuple[int, Array]]] = [[] for _ in range(len(rows))]
     _collect(lists, rows.p, rows.p.owner, stride, offset)

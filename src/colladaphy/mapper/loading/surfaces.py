@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.links.pool import expanded
-from colladaphy.mapper.loading.polygons import triangulated
+from colladaphy.mapper.loading.polygons import corner_layout, triangulated
 
 __all__ = ["Surface", "read_surfaces"]
 
@@ -47,7 +47,9 @@ def read_surfaces(meshes: Any) -> list[Surface]:
             made = _triangles(rows)
         else:
             made = triangulated(rows, name, [vertices[mesh] for mesh in rows.owner.tolist()])
-        for mesh, order, found in zip(rows.owner.tolist(), rows.ordinals.tolist(), made, strict=True):
+        for mesh, order, found in zip(
+            rows.owner.tolist(), rows.ordinals.tolist(), made, strict=True
+        ):
             faces[mesh].append((order, found))
     surfaces = []
     for mesh in range(count):
@@ -55,8 +57,10 @@ def read_surfaces(meshes: Any) -> list[Surface]:
         corners = parts[0] if len(parts) == 1 else np.concatenate(parts) if parts else _NO_FACES
         fault = faults[mesh]
         points = vertices[mesh]
-        if fault is None and len(corners) and (
-            int(corners.min()) < 0 or int(corners.max()) >= len(points)
+        if (
+            fault is None
+            and len(corners)
+            and (int(corners.min()) < 0 or int(corners.max()) >= len(points))
         ):
             fault = "A face names a vertex that there is not."
         surfaces.append(Surface(points, corners, fault))
@@ -146,18 +150,6 @@ def _named_places(accessors: Any) -> Array:
 
 
 # --- triangles
-
-
-def corner_layout(rows: Any) -> tuple[Array, Array]:
-    """How many indices a corner of primitives has (n,), and which is that of the vertex (n,)."""
-    count = len(rows)
-    inputs = rows.input
-    stride = np.ones(count, np.int64)
-    np.maximum.at(stride, inputs.owner, inputs.offset.astype(np.int64) + 1)
-    offset = np.zeros(count, np.int64)
-    vertex = np.array([semantic == "VERTEX" for semantic in inputs.semantic], np.bool_)
-    offset[inputs.owner[vertex]] = inputs.offset[vertex]
-    return stride, offset
 
 
 def _triangles(rows: Any) -> list[Array]:
