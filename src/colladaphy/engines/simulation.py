@@ -193,9 +193,9 @@ class Simulation:
         if isinstance(target, Checkpoints):
             return self._save(target)
         self._rebuild()
-        import colladaphy
+        from colladaphy.document import write
 
-        colladaphy.write(self.world, target)
+        write(self.world, target)
         return Path(target)
 
     def _save(self, checkpoints: Checkpoints) -> Path:
