@@ -10,7 +10,7 @@ demo: $(STAMP)
 	$(BIN)/colladaphy demo
 
 test: $(STAMP)
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n auto --dist worksteal
 
 check: $(STAMP)
 	$(BIN)/python -m tools.bindings --check
@@ -18,6 +18,7 @@ check: $(STAMP)
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports
 
 generate: $(STAMP)
 	$(BIN)/python -m tools.bindings

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from tests.engines.scenes import SCENES
 
 import colladaphy
+from colladaphy import document
 from colladaphy.engines import Checkpoints, Simulation, read_checkpoint
 from colladaphy.errors import ColladaError, EngineError, OutputError
 from colladaphy.world import compare
@@ -96,13 +97,13 @@ def test_rotation_removes_nothing_while_the_newest_cannot_be_read_back(
     run = simulation()
     run.checkpoint(checkpoints)
     run.run(10)
-    write = colladaphy.write
+    write = document.write
 
     def write_badly(world: colladaphy.World, target: Path) -> None:
         write(world, target)
         target.write_bytes(target.read_bytes()[:-100])
 
-    monkeypatch.setattr(colladaphy, "write", write_badly)
+    monkeypatch.setattr(document, "write", write_badly)
     with pytest.raises(EngineError, match="engine-checkpoint-broken"):
         run.checkpoint(checkpoints)
     monkeypatch.undo()

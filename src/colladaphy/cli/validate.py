@@ -32,9 +32,9 @@ def command(files: tuple[str, ...], form: str, fail_level: str, limits: Limits |
     Exits with 0 when all are valid COLLADA 1.5, with 1 when there are errors, and with 2 when a
     file cannot be read.
     """
-    from colladaphy import validate
     from colladaphy.errors import InputError
     from colladaphy.findings import Report, Severity
+    from colladaphy.validation import validate
     from colladaphy.validation.reporters import as_json
 
     reports = []

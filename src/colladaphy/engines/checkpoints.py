@@ -50,11 +50,11 @@ def read_checkpoint(path: str | os.PathLike[str]) -> World:
     not schema-valid, or its content does not fit its checksum. A scene without an engine's state is
     no checkpoint (``engine-checkpoint-stateless``).
     """
-    import colladaphy
+    from colladaphy.document import read
 
     shown = os.fsdecode(path)
     try:
-        world: World = colladaphy.read(path).load()
+        world: World = read(path).load()
     except ColladaError as error:
         reason = error.findings[0].message if error.findings else str(error)
         raise _broken(f"{Path(path).name} is not whole: {reason}", shown) from error
@@ -114,11 +114,11 @@ class Checkpoints:
         OutputError if it cannot be written; EngineError if what was written cannot be read back.
         The older ones are untouched then.
         """
-        import colladaphy
+        from colladaphy.document import write
 
         self._make_folder()
         path = self.path(world.step_count)
-        colladaphy.write(world, path)
+        write(world, path)
         older = [other for other in self.paths() if other != path and _step(other) <= _step(path)]
         surplus = older[: max(0, len(older) - self.keep + 1)]
         if surplus:
