@@ -348,3 +348,31 @@ def test_the_jenga_scene(cli: Runner, corpus_dir: Path, tmp_path: Path) -> None:
     assert before["world"]["bodies"] > 0
     for key in ("bodies", "kinds", "joints", "unions", "fixed"):
         assert before["world"][key] == after["world"][key]
+
+
+@pytest.mark.parametrize(
+    "arguments", [["--help"], ["validate", "--help"], ["rules"], ["explain", "xml-doctype"]]
+)
+def test_what_needs_no_numbers_starts_without_numpy(arguments: list[str]) -> None:
+    code = (
+        "import sys\n"
+        "from colladaphy.cli import run\n"
+        f"code = run({arguments!r})\n"
+        "heavy = {'numpy', 'lxml', 'xsdata', 'pymunk', 'colladaphy_schema'} & set(sys.modules)\n"
+        "sys.exit(f'{heavy} after {code}' if heavy or code else 0)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+def test_validate_leaves_alone_what_it_does_not_need(file: Path) -> None:
+    code = (
+        "import sys\n"
+        "from colladaphy.cli import run\n"
+        f"run(['validate', {str(file)!r}])\n"
+        "rooms = {name.split('.')[1] for name in sys.modules if name.startswith('colladaphy.')}\n"
+        "print(*sorted(rooms & {'engines', 'mapper', 'world', 'document', 'exchange', 'view'}))\n"
+        "print('pymunk' in sys.modules, 'colladaphy.conform.pipeline' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.stdout.splitlines()[1:] == ["", "False False"], done.stdout + done.stderr

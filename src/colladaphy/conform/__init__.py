@@ -24,7 +24,20 @@ what is compared with them is to be compared no more exactly.
 
 from __future__ import annotations
 
-from colladaphy.conform.pipeline import conform
-from colladaphy.conform.versions import detect_version
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from colladaphy.conform.pipeline import conform as conform
+    from colladaphy.conform.versions import detect_version as detect_version
+
+# Valid documents are read without the many modules that mend others.
+_HOME = {"conform": "pipeline", "detect_version": "versions"}
 
 __all__ = ["conform", "detect_version"]
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOME[name]}"), name)

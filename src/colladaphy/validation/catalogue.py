@@ -4,26 +4,32 @@ from __future__ import annotations
 
 from difflib import get_close_matches
 from functools import cache
-from importlib import import_module
 from pathlib import Path
+from runpy import run_path
 
 from colladaphy.findings import STAGES, Rule
 
 __all__ = ["all_rules", "find_rule", "rule_modules", "similar_codes"]
 
 
-def rule_modules() -> list[str]:
-    """The names of all modules that hold a room's rules: ``rules.py`` and ``*_rules.py``."""
+def rule_modules() -> dict[str, Path]:
+    """The modules that hold a room's rules, ``rules.py`` and ``*_rules.py``: files by name."""
     home = Path(__file__).resolve().parent.parent
-    found = {*home.rglob("rules.py"), *home.rglob("*_rules.py")}
-    names = (".".join(path.relative_to(home).with_suffix("").parts) for path in found)
-    return sorted(f"colladaphy.{name}" for name in names)
+    found = sorted({*home.rglob("rules.py"), *home.rglob("*_rules.py")})
+    return {
+        ".".join(("colladaphy", *path.relative_to(home).with_suffix("").parts)): path
+        for path in found
+    }
 
 
 @cache
 def all_rules() -> tuple[Rule, ...]:
-    """All rules, by stage in the order of the pipeline, then by code."""
-    rules = [rule for module in rule_modules() for rule in import_module(module).RULES]
+    """All rules, by stage in the order of the pipeline, then by code.
+
+    The modules of rules are run by themselves: to import them would bring in their rooms, and
+    numpy with these.
+    """
+    rules = [rule for path in rule_modules().values() for rule in run_path(str(path))["RULES"]]
     return tuple(sorted(rules, key=lambda rule: (STAGES.index(rule.stage), rule.code)))
 
 
