@@ -19,6 +19,7 @@ from colladaphy.engines import (
     Trajectory,
     angular_momentum,
     create_engine,
+    engine_names,
     momentum,
 )
 from colladaphy.engines import selection as selecting
@@ -249,3 +250,68 @@ def test_listing_1_runs(tmp_path: Path) -> None:
         assert body.position[0] == pytest.approx(height, abs=0.05)
     assert np.linalg.norm(two.position - one.position) == pytest.approx(np.sqrt(2), rel=1e-9)
     assert compare(world, colladaphy.read(out).load()) == []
+
+
+def broken(failure: str) -> str:
+    """What is said when the library fails in some way while it is loaded."""
+    script = f"""
+import sys
+class Broken:
+    def find_spec(self, name, path=None, target=None):
+        if name == "mujoco":
+            raise {failure}
+sys.meta_path.insert(0, Broken())
+from colladaphy.engines import create_engine
+from colladaphy.errors import EngineError
+try: create_engine("mujoco")
+except EngineError as error: print(error)
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    return done.stdout
+
+
+@pytest.mark.parametrize(
+    "failure", ['OSError("libmujoco.so: cannot open")', 'AttributeError("mjtObj")']
+)
+def test_any_failure_of_a_library_is_a_finding_that_helps(failure: str) -> None:
+    said = broken(failure)
+    assert "engine-not-installed" in said and "pip" in said
+    assert failure.split('"')[1] in said
+
+
+def test_libraries_that_overwrite_each_other_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    installed = {"mujoco": "3.17.0", "mujoco-core": "4.0.1"}
+    monkeypatch.setattr(selecting, "version", installed.__getitem__)
+
+    def fail(_: str) -> object:
+        raise ImportError("libmujoco.so.4 is not there")
+
+    monkeypatch.setattr(selecting, "import_module", fail)
+    with pytest.raises(EngineError) as caught:
+        create_engine("mujoco")
+    said = str(caught.value)
+    assert "mujoco 3.17.0 and mujoco-core 4.0.1 overwrite each other" in said
+    assert "pip uninstall mujoco mujoco-core" in said
+
+
+def test_engines_of_other_packages_are_found(monkeypatch: pytest.MonkeyPatch, empty: Maker) -> None:
+    """An entry point is an engine by name, and what "auto" tries last."""
+    from importlib.metadata import EntryPoint
+
+    point = EntryPoint(
+        "mine", "colladaphy.engines.pymunk_engine:PymunkEngine", "colladaphy.engines"
+    )
+    monkeypatch.setattr(
+        selecting, "entry_points",
+        lambda group, name=None: [point] if group == selecting.GROUP else [],
+    )  # fmt: skip
+    assert engine_names() == (*ENGINES, "mine")
+    world = empty()
+    world.create_sphere(1, (0, 0, 0), 0.5, "ball")
+    simulation = Simulation(world, create_engine("mine", iterations="30"))
+    assert simulation.engine.options["iterations"] == 30
+    monkeypatch.setattr(selecting, "ENGINES", {})
+    chosen, findings = selecting.choose(world)
+    assert type(chosen).__name__ == "PymunkEngine" and findings

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -172,3 +173,38 @@ def test_a_checkpoint_of_an_unknown_engine_is_no_silent_other_one(
     named = Simulation.resume(file, "pymunk")
     assert "engine-state-engine" in {finding.code for finding in named.report}
     np.testing.assert_array_equal(named.world.positions, [[0, 0, 0]])
+
+
+def test_contacts_of_a_summary_are_those_of_its_moment(engine: Engine, empty: Any) -> None:
+    """They are counted late, but not too late."""
+    world = empty((0, 0, -9.81), restitution=1.0)
+    world.create_plane(1, (0, 0, 1), 0, "ball")
+    world.create_sphere(2, (0, 0, 0.5), 0.5, "ball", linear_velocity=(0, 0, -1))
+    simulation = Simulation(world, engine)
+    kept = simulation.run(1)
+    expected = len(simulation.contacts())
+    simulation.run(20)
+    assert len(simulation.contacts()) != expected
+    assert kept.contacts == expected == 1
+
+
+def test_a_steered_step_costs_about_a_free_one(engine: Engine, empty: Any) -> None:
+    """Within a small factor, and by far less than a load, for a scene of some size."""
+    world = empty((0, 0, -9.81))
+    for i in range(500):
+        world.create_sphere(2, (1.5 * i, 0, 0), 0.5, "ball")
+    simulation = Simulation(world, engine)
+
+    def spent(run: Any, count: int = 20) -> float:
+        best = math.inf
+        for _ in range(3):
+            start = perf_counter()
+            run(count)
+            best = min(best, (perf_counter() - start) / count)
+        return best
+
+    simulation.run(20)
+    free = spent(simulation.run)
+    steered = Simulation(world, engine, forces=lambda seen, _: seen.forces[:, 0].fill(1e-9))
+    steered.run(5)
+    assert spent(steered.run) < 10 * free + 1e-3

@@ -12,7 +12,7 @@ from colladaphy.engines.digest import digest
 from colladaphy.engines.events import ContactEvent
 from colladaphy.engines.observers import Observer, Trajectory
 from colladaphy.engines.protocol import Capabilities, Contact, Engine, Steerable
-from colladaphy.engines.selection import ENGINES, choose, create_engine
+from colladaphy.engines.selection import ENGINES, choose, create_engine, engine_names
 from colladaphy.engines.simulation import DEFAULT_TIME_STEP, Simulation
 
 __all__ = [
@@ -32,6 +32,7 @@ __all__ = [
     "choose",
     "create_engine",
     "digest",
+    "engine_names",
     "kinetic_energy",
     "momentum",
     "potential_energy",

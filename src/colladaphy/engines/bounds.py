@@ -32,23 +32,23 @@ class Bounds:
     def of(cls, world: World, time_step: float) -> Bounds:
         """From the size of a World, and from the speeds, forces and gravity that it has."""
         moving = ~world.fixed
-        masses = np.where(world.masses > 0, world.masses, np.inf)[moving]
         places = world.positions[moving]
-        extent = places - places[:1]
-        push = np.linalg.norm(world.forces[moving], axis=1) / masses
         way = max(
-            float(np.abs(extent).max(initial=0.0)),
+            float(np.abs(places - places[:1]).max(initial=0.0)),
             float(np.abs(world.dimensions[moving]).max(initial=0.0)),
             float(np.abs(world.member_columns.dimensions).max(initial=0.0)),
-            float(np.abs(world.linear_velocities[moving]).max(initial=0.0)) * time_step,
             float(np.abs(world.gravity).max()) * time_step**2,
-            float(push.max(initial=0.0)) * time_step**2,
         )
-        return cls(_MEASURE * way, time_step)
+        return cls(_MEASURE * way, time_step).widened(world)
 
     def widened(self, world: World) -> Bounds:
-        """These, or those of `world` as it is now, whichever are wider."""
-        return Bounds(max(self.way, Bounds.of(world, self.time_step).way), self.time_step)
+        """These, or wider ones if speeds or forces of `world` need them."""
+        moving = ~world.fixed
+        speed = float(np.abs(world.linear_velocities[moving]).max(initial=0.0))
+        masses = world.masses[moving, None]
+        push = world.forces[moving] / np.where(masses > 0, masses, np.inf)
+        way = max(speed * self.time_step, float(np.abs(push).max(initial=0.0)) * self.time_step**2)
+        return Bounds(max(self.way, _MEASURE * way), self.time_step)
 
     def check(self, linear: Floats, *others: Floats, step: int) -> None:
         """EngineError unless all is finite and no linear velocity (n, 3) is beyond measure."""

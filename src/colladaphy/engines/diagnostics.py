@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable, Sized
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -26,6 +27,23 @@ __all__ = [
 Floats = NDArray[np.float64]
 
 
+class ContactCount:
+    """How many contacts there are, counted when somebody asks: it can take longer than a step."""
+
+    __slots__ = ("__weakref__", "_contacts", "_count")
+
+    def __init__(self, contacts: Callable[[], Sized]) -> None:
+        self._contacts: Callable[[], Sized] | None = contacts
+        self._count = 0
+
+    def read(self) -> int:
+        """The number; it has to be read before the engine goes on."""
+        if self._contacts is not None:
+            self._count = len(self._contacts())
+            self._contacts = None
+        return self._count
+
+
 @dataclass(frozen=True, slots=True)
 class Summary:
     """How a World is at one moment."""
@@ -36,13 +54,18 @@ class Summary:
     bodies: int
     """Top-level bodies that can move."""
     sleeping: int
-    contacts: int
+    count: ContactCount = field(repr=False, compare=False)
     kinetic_energy: float
     potential_energy: float
     """Of gravity, zero at the origin, and of the springs of joints."""
     momentum: tuple[float, ...]
     angular_momentum: tuple[float, ...]
     """About the origin."""
+
+    @property
+    def contacts(self) -> int:
+        """Points in which bodies touch."""
+        return self.count.read()
 
     @property
     def energy(self) -> float:
@@ -124,8 +147,8 @@ def joint_coordinates(joint: Joint) -> tuple[Floats, Floats]:
     return shift, axis * angle
 
 
-def summarise(world: World, engine: str, contacts: int) -> Summary:
-    """The summary of `world` as `engine` left it with so many contacts."""
+def summarise(world: World, engine: str, count: ContactCount) -> Summary:
+    """The summary of `world` as `engine` left it."""
     moving = ~world.fixed
     return Summary(
         engine=engine,
@@ -133,7 +156,7 @@ def summarise(world: World, engine: str, contacts: int) -> Summary:
         step_count=world.step_count,
         bodies=int(moving.sum()),
         sleeping=int((world.sleeping & moving).sum()),
-        contacts=contacts,
+        count=count,
         kinetic_energy=kinetic_energy(world),
         potential_energy=potential_energy(world),
         momentum=tuple(momentum(world).tolist()),

@@ -66,10 +66,14 @@ def static_parts(world: World) -> list[Any]:
         dict(world.meshes),  # which never change themselves
         [_MATERIAL(material) for material in world.materials], list(world.pair_overrides),
     ]  # fmt: skip
-    for _, array in _arrays(world):
-        parts.append(array.tobytes())
-    parts += [column.tobytes() for column in world.joints.columns().values()]
-    parts += [world.mesh_ids.tobytes(), world.member_columns.mesh_ids.tobytes()]
+    still = world.fixed
+    for table, changing in ((world.top, _MOTION), (world.inner, ()), (world.joint_table, ())):
+        for name, column in table.views({}).items():
+            if column is None or name in changing:
+                continue
+            if table is world.top and name in _POSE:
+                column = column[still]
+            parts.append(column.tobytes())
     return parts
 
 

@@ -70,6 +70,7 @@ def outlines(
     """
     columns = world.columns()
     tops: NDArray[Any] = columns.kinds != Kind.UNION
+    tops &= columns.kinds != Kind.EMPTY
     singles = _Shapes.of_columns(columns, np.flatnonzero(tops))
     place = 0
     for row, body in enumerate(world.bodies):
@@ -77,7 +78,9 @@ def outlines(
             yield body.sid, body.sid, singles.outline(place, frame, tolerance, size)
             place += 1
             continue
-        leaves = list(_leaves(body))
+        leaves = [leaf for leaf in _leaves(body) if leaf.kind is not Kind.EMPTY]
+        if not leaves:
+            continue
         parts = _Shapes.of_bodies(leaves)
         for index, leaf in enumerate(leaves):
             yield body.sid, leaf.sid, parts.outline(index, frame, tolerance, size)

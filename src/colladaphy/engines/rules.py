@@ -112,6 +112,12 @@ SETTINGS = Rule(
     "What the engine computes with.",
     "Give other options to the engine; docs/engines.md says what they do.",
 )
+SETUP = Rule(
+    "engine-setup",
+    Severity.INFO,
+    "Setting up the engine takes long.",
+    "Run planar scenes with pymunk, or fix what need not move.",
+)
 STILL_VELOCITY = Rule(
     "engine-still-velocity",
     Severity.WARNING,
@@ -295,6 +301,7 @@ RULES = (
     SIZE,
     OPTION,
     SETTINGS,
+    SETUP,
     STILL_VELOCITY,
     AWAKE,
     MATERIAL_UNUSED,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from importlib import import_module
+from importlib.metadata import PackageNotFoundError, entry_points, version
 from typing import TYPE_CHECKING, Final
 
 from colladaphy.engines.rules import CHOSEN, NO_ENGINE, NOT_INSTALLED, UNKNOWN, refuse
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from colladaphy.engines.protocol import Engine
     from colladaphy.world import World
 
-__all__ = ["ENGINES", "choose", "create_engine"]
+__all__ = ["ENGINES", "GROUP", "choose", "create_engine", "engine_names"]
 
 ENGINES: Final = {
     "pymunk": ("colladaphy.engines.pymunk_engine", "PymunkEngine"),
@@ -23,34 +24,74 @@ ENGINES: Final = {
 """Engines by name, in the order in which "auto" tries them: module and class."""
 
 
+GROUP: Final = "colladaphy.engines"
+"""The group of entry points under which other packages offer engines, by name: classes, or
+functions that take the options and return an engine. Built-in names come first."""
+
+
+def engine_names() -> tuple[str, ...]:
+    """The names of all engines, those of other packages included, whether they work or not."""
+    offered = sorted({point.name for point in entry_points(group=GROUP)} - ENGINES.keys())
+    return (*ENGINES, *offered)
+
+
 def create_engine(name: str, **options: Value) -> Engine:
-    """The engine of a name; EngineError if there is none, or if its library is not installed.
+    """The engine of a name; EngineError if there is none, or if its library does not load.
 
     Its `options` are in docs/engines.md; numbers and switches may be texts.
     """
-    if name not in ENGINES:
-        known = ", ".join(("auto", *ENGINES))
+    names = engine_names()
+    if name not in names:
+        known = ", ".join(("auto", *names))
         raise refuse(UNKNOWN, f"There is no engine named {name!r}; there are {known}.")
-    module, cls = ENGINES[name]
     try:
-        engine: Engine = getattr(import_module(module), cls)(**options)
-    except ImportError as error:
-        extra = "colladaphy" if name == "pymunk" else f"colladaphy[{name}]"
-        hint = f"Install it: pip install '{extra}'."
-        message = f"The engine {name} cannot be loaded: {error}."
-        raise EngineError(NOT_INSTALLED.at(message=message, hint=hint)) from error
+        if name in ENGINES:
+            module, cls = ENGINES[name]
+            maker = getattr(import_module(module), cls)
+        else:
+            (point, *_) = entry_points(group=GROUP, name=name)
+            maker = point.load()
+    except Exception as error:  # a library can fail in any way when it is loaded
+        raise _not_installed(name, error) from error
+    engine: Engine = maker(**options)
     return engine
+
+
+def _not_installed(name: str, error: Exception) -> EngineError:
+    hint = "Install it: pip install 'colladaphy[mujoco]'." if name == "mujoco" else (
+        "Install it anew: pip install --force-reinstall pymunk." if name == "pymunk"
+        else "Ask the package that offers it."
+    )  # fmt: skip
+    versions = {dist: found for dist in _MUJOCO if (found := _installed(dist))}
+    if name == "mujoco" and len({number.split(".")[0] for number in versions.values()}) > 1:
+        both = " and ".join(f"{dist} {number}" for dist, number in versions.items())
+        hint = (
+            f"{both} overwrite each other's files. Keep one: pip uninstall {' '.join(versions)}, "
+            "then pip install mujoco."
+        )
+    message = f"The engine {name} cannot be loaded: {type(error).__name__}: {error}."
+    return EngineError(NOT_INSTALLED.at(message=message, hint=hint))
+
+
+_MUJOCO: Final = ("mujoco", "mujoco-core")
+
+
+def _installed(distribution: str) -> str:
+    try:
+        return version(distribution)
+    except PackageNotFoundError:
+        return ""
 
 
 def choose(world: World) -> tuple[Engine, list[Finding]]:
     """The first engine that can run `world`, and the findings that say why and at what cost.
 
-    Planar scenes go to pymunk, all others to MuJoCo. EngineError lists everything that stands
-    against each engine.
+    Planar scenes go to pymunk, all others to MuJoCo, and what that refuses to engines of other
+    packages. EngineError lists everything that stands against each engine.
     """
     reasons: list[Finding] = []
     missing: list[Finding] = []
-    for name in ENGINES:
+    for name in engine_names():
         try:
             engine = create_engine(name)
         except EngineError as error:

@@ -7,9 +7,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Self
+from weakref import ref
 
 from colladaphy.engines.checkpoints import Checkpoints, read_checkpoint
-from colladaphy.engines.diagnostics import Summary, summarise
+from colladaphy.engines.diagnostics import ContactCount, Summary, summarise
 from colladaphy.engines.edits import Edits
 from colladaphy.engines.events import ContactEvent, ContactEvents
 from colladaphy.engines.protocol import Steerable
@@ -87,7 +88,9 @@ class Simulation:
         options = getattr(self.engine, "options", None)
         own = unpack(world, self.engine.name, self.engine.version, options)
         self.report.extend(own.findings)
+        self._steerable = self.engine if isinstance(self.engine, Steerable) else None
         self._edits = Edits()
+        self._last: ref[ContactCount] | None = None
         self._load()
         self.report.extend(getattr(self.engine, "notices", ()))
 
@@ -214,17 +217,20 @@ class Simulation:
 
     def _store(self) -> None:
         self.engine.store(self.world)
-        self._edits.remember(self.world)
+        self._edits.remember_motion(self.world)
 
     def _observe(self) -> None:
         """Bring the World up to date for somebody who looks at it."""
-        if isinstance(self.engine, Steerable):
-            self.engine.observe(self.world)
+        if self._steerable:
+            self._steerable.observe(self.world)
             self._edits.remember_motion(self.world)
         else:
             self._store()
 
     def _step(self, count: int, pace: _Pace) -> None:
+        if self._last and (unread := self._last()):
+            unread.read()
+        self._last = None
         try:
             with pace:
                 self.engine.step(count)
@@ -248,7 +254,7 @@ class Simulation:
 
     def _take_up_motion(self) -> None:
         engine = self.engine
-        if isinstance(engine, Steerable) and engine.steer(self.world):
+        if self._steerable and self._steerable.steer(self.world):
             self._edits.remember_motion(self.world)
             return
         errors = [f for f in engine.check(self.world) if f.severity is Severity.ERROR]
@@ -273,7 +279,9 @@ class Simulation:
 
     def summary(self) -> Summary:
         """Energy, momentum and contacts as the World is now."""
-        return summarise(self.world, self.engine.name, len(self.contacts()))
+        summary = summarise(self.world, self.engine.name, ContactCount(self.engine.contacts))
+        self._last = ref(summary.count)
+        return summary
 
 
 def _maker(state: EngineState) -> Engine:

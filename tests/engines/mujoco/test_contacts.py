@@ -10,7 +10,7 @@ import pytest
 
 from colladaphy.engines import Simulation, kinetic_energy, potential_energy
 from colladaphy.engines.mujoco_engine import MujocoEngine
-from colladaphy.world import Body, World
+from colladaphy.world import Body, BodyColumns, Kind, World
 
 G = 9.81
 
@@ -178,3 +178,37 @@ def test_what_is_computed_with_is_said() -> None:
         world.create_sphere(10 + i, (3 + i, 0, 1), 0.4, "ball")
     found = {finding.code: finding.message for finding in Simulation(world, "mujoco").report}
     assert "cg" in found["engine-settings"] and "order 1" in found["engine-settings"]
+
+
+def test_pairs_of_many_materials_cost_no_setup() -> None:
+    """600 materials, each with a friction and a restitution of its own, and no explicit pairs."""
+    world = World((0, 0, -G), time_step=1 / 240)
+    for i in range(600):
+        world.create_material(
+            f"m{i}", density=1000, restitution=i / 600, static_friction=i / 600,
+            dynamic_friction=i / 600, poisson_ratio=0.3, young_modulus=1, stiffness=1,
+            damping_normal=0, damping_tangential=0,
+        )  # fmt: skip
+        world.create_sphere(i, (1.5 * i, 0, 0.6), 0.5, f"m{i}")
+    world.create_plane(1, (0, 0, 1), 0, "m0")
+    engine = MujocoEngine()
+    Simulation(world, engine).run(37)
+    assert engine._model is not None and engine._model.compiled.npair == 0
+    pair = world.pair("m0", "m599")
+    np.testing.assert_allclose(engine._model.surfaces.table.restitution[0, -1], pair.restitution)
+    bounced = world.linear_velocities[:-1, 2]
+    assert bounced[590] > bounced[300] > bounced[10]
+
+
+def test_a_long_setup_is_announced() -> None:
+    world = World((0, 0, -G), time_step=1 / 240)
+    count = 6000
+    place = np.stack([np.arange(count) * 2.0, np.zeros(count), np.zeros(count)], axis=-1)
+    world.extend(
+        BodyColumns(
+            kinds=np.full(count, Kind.SPHERE), positions=place,
+            dimensions=np.tile([0.5, 0, 0, 0], (count, 1)),
+        )
+    )  # fmt: skip
+    said = [f.message for f in MujocoEngine().check(world) if f.code == "engine-setup"]
+    assert len(said) == 1 and "about 9 s" in said[0]

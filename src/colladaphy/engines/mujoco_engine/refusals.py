@@ -24,6 +24,7 @@ from colladaphy.engines.rules import (
     MASS,
     MESH_HULL,
     MOVING_PLANE,
+    SETUP,
     SHAPE_APPROXIMATED,
     SIZE,
 )
@@ -40,6 +41,8 @@ __all__ = ["check", "overlaps"]
 _LEAST = 1e-15  # mjMINVAL
 _MOST = 1e10  # mjMAXVAL
 _MOST_MASS = 1e20
+_COMPILE = 2.5e-7  # seconds for the square of the number of bodies, on a machine of 2024
+_LONG = 5.0  # seconds worth a word
 _DEEP = 1e-4  # of the size of a body: an overlap worth a word
 
 
@@ -54,7 +57,17 @@ def check(
     with np.errstate(all="ignore"):
         findings = [*_gravity(world), *_bodies(world), *_shapes(world), *_joints(world, fresh)]
         findings += unused(world, options.friction, sleep=options.sleep)
-    return [*resolve(options, world).describe(), *findings]
+    return [*resolve(options, world).describe(), *_duration(world), *findings]
+
+
+def _duration(world: World) -> Iterator[Finding]:
+    count = int(np.count_nonzero(~world.fixed))
+    seconds = _COMPILE * count**2
+    if seconds > _LONG:
+        yield SETUP.at(
+            message=f"Setting up {count} bodies takes about {seconds:.0f} s: MuJoCo's compiler "
+            "takes time that grows with the square of their number. The steps then do not."
+        )
 
 
 def _gravity(world: World) -> Iterator[Finding]:

@@ -53,6 +53,8 @@ def _shapes(world: World, sid: int, pose: Pose, *, top: bool) -> Iterator[Shape]
         for member in world.children[sid]:
             yield from _shapes(world, member, pose, top=False)
         return
+    if kind is Kind.EMPTY:
+        return
     yield Shape(
         kind,
         pose,

@@ -61,6 +61,8 @@ class PymunkEngine:
         self._orientations: Any = np.zeros((0, 4))
         self._clock = Clock(0.0, 0, 1.0)
         self._bounds = Bounds(np.inf, 0.0)
+        self._forced = False  # forces were set that no step has used
+        self._latest: Any = np.zeros((0, 6))  # the state after the last step
         self._poses = self._speeds = (b"", b"")  # as the World and pymunk last agreed in
         self._stepped = False
 
@@ -87,7 +89,7 @@ class PymunkEngine:
             raise EngineError(errors)
         fresh = self._is_fresh(world)
         model = build(world, planarity, links, self._options, fresh=fresh)
-        self._plan, self._model = planarity, model
+        self._plan, self._model, self._forced = planarity, model, True
         self.notices = list(_overlaps(world, model, links, planarity.size)) if fresh else []
         self._bounds = Bounds.of(world, clock.time_step)
         self._poses, self._speeds = _poses(world), _speeds(world)
@@ -113,7 +115,8 @@ class PymunkEngine:
             return
         self._stepped = True
         self._clock.advance(count)
-        state = self._state()
+        self._forced = False
+        state = self._latest = self._state()
         self._bounds.check(state[:, 3:5], state, step=self._clock.step_count)
 
     def _state(self) -> Any:
@@ -134,7 +137,7 @@ class PymunkEngine:
         """See `Steerable.observe`."""
         assert self._model is not None and self._plan is not None
         if self._stepped:
-            frame, state = self._plan.frame, self._state()
+            frame, state = self._plan.frame, self._latest
             rows = np.searchsorted(world.sids, np.array(self._model.sids, dtype=np.int64))
             world.positions[rows] = frame.lift(state[:, :2], self._heights)
             world.orientations[rows] = _turned(self._orientations, frame.normal, state[:, 2])
@@ -170,7 +173,9 @@ class PymunkEngine:
         for body, velocity, force, spin, torque in zip(model.bodies, *flat, *turns, strict=True):
             if hit:
                 body.velocity, body.angular_velocity = tuple(velocity), spin
-            body.force, body.torque = tuple(force), torque
+            if self._forced or torque or any(force):  # they are zero after a step
+                body.force, body.torque = tuple(force), torque
+        self._forced = True
         self._bounds = self._bounds.widened(world)
         return True
 
