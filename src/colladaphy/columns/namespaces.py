@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from colladaphy.columns.index import Index
 from colladaphy.columns.names import NotPlain
-from colladaphy.columns.texts import Ranges
+from colladaphy.columns.texts import Ranges, factors_of
 
 __all__ = ["codes_by_name"]
 
@@ -97,11 +97,8 @@ def _declarations(index: Index) -> _Declarations:
 
 def _different(ranges: Ranges) -> tuple[Array, list[bytes]]:
     """Which of the different texts each one is, and those."""
-    if ranges.all_equal():
-        return np.zeros(len(ranges), np.int64), ranges.part(0, 1).texts()
-    numbers: dict[bytes, int] = {}
-    kinds = [numbers.setdefault(text, len(numbers)) for text in ranges.texts()]
-    return np.array(kinds, np.int64), list(numbers)
+    numbers, first = factors_of(ranges)
+    return numbers, ranges.take(first).texts()
 
 
 def _attributes(index: Index) -> tuple[Ranges, Ranges, Array]:

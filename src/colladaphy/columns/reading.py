@@ -198,13 +198,22 @@ class Document:
             row += 1
         return self._texts(np.array(kept, np.int32)).texts()
 
-    def has_foreign_children(self, rows: Rows, namespace: str) -> bool:
-        """Whether elements have children that are not of a namespace (given in braces)."""
+    def has_foreign_content(self, rows: Rows, namespace: str) -> bool:
+        """Whether the first child of an element is not of a namespace (given in braces)."""
         assert rows.ordinals is not None
-        ours = [code for name, codes in self._codes.items() if name.startswith(namespace)
-                for code in codes]  # fmt: skip
-        others = np.flatnonzero(~np.isin(self.index.codes, ours))
-        return bool(np.any(np.isin(self.index.parent[others], rows.ordinals)))
+        index = self.index
+        below = rows.ordinals[rows.ordinals + 1 < len(index)]
+        first = below[index.parent[below + 1] == below] + 1
+        foreign = np.ones(len(index.names.texts), np.bool_)
+        foreign[[code for name, codes in self._codes.items() if name.startswith(namespace)
+                 for code in codes]] = False  # fmt: skip
+        return bool(np.any(foreign[index.codes[first]]))
+
+    def chosen(self, rows: Rows, name: str, value: str) -> Array:
+        """Which rows have a value of an attribute (n,)."""
+        numbers, texts = self.factorized(rows, name)
+        ours = np.array([*(text == value for text in texts), False], np.bool_)
+        return ours[numbers]
 
     def codes_of(self, tag: str) -> tuple[int, ...]:
         """The codes of a qualified name in the index."""

@@ -126,6 +126,9 @@ def factors_of(ranges: Ranges) -> tuple[Array, Array]:
     made = ranges.words()
     if made is not None and len(ranges):
         words, lengths = made
+        few = _few(words, lengths)
+        if few is not None:
+            return few
         mixed = lengths.astype(U)
         for column in range(words.shape[1]):
             mixed ^= words[:, column]
@@ -140,6 +143,24 @@ def factors_of(ranges: Ranges) -> tuple[Array, Array]:
     return numbers, np.unique(numbers, return_index=True)[1]
 
 
+def _few(words: Array, lengths: Array) -> tuple[Array, Array] | None:
+    """The same for texts of which there are hardly any different ones; None for others."""
+    numbers = np.full(len(lengths), -1, np.int64)
+    left, rows = np.arange(len(lengths)), []
+    while len(left):
+        if len(rows) == _MOST_LOOKED_FOR:
+            return None
+        first = left[0]
+        same = lengths[left] == lengths[first]
+        for column in range(words.shape[1]):
+            same &= words[left, column] == words[first, column]
+        numbers[left[same]] = len(rows)
+        rows.append(int(first))
+        left = left[~same]
+    return numbers, np.array(rows, np.int64)
+
+
+_MOST_LOOKED_FOR = 6
 _MIX: Final = U(0x9E3779B97F4A7C15)
 
 

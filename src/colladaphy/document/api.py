@@ -9,10 +9,10 @@ from colladaphy.document.document import Document
 from colladaphy.document.writing import Output, document_bytes, write_world
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report, Severity
-from colladaphy.gate import gate
+from colladaphy.gate import accepts, gate
 from colladaphy.links.resource import Resource
 from colladaphy.mapper import WriteOptions
-from colladaphy.source import Limits, Parsed, Source, load, parse_loaded
+from colladaphy.source import Limits, Loaded, Parsed, Source, load, parse_loaded
 from colladaphy.world import World
 
 __all__ = ["document_bytes", "document_of", "read", "write"]
@@ -35,22 +35,38 @@ def read(
     SchemaError with all findings.
     """
     loaded = load(source, limits or Limits())
-    parsed = parse_loaded(loaded, mend=repair)
-    data = None if repair else loaded.data
-    return document_of(parsed, repair=repair, convention=convention, data=data)
+    resource = _read(loaded, repair=repair, convention=convention, family={})
+    return Document(resource, archive=loaded.archive, member=loaded.member)
 
 
-def document_of(
-    parsed: Parsed, *, repair: bool, convention: str = "auto", data: bytes | None = None
-) -> Document:
-    """The Document of a parsed file, and of its bytes where nothing is changed; see `read`."""
-    resource = _resource(parsed, data, repair=repair, convention=convention, family={})
+def document_of(parsed: Parsed, *, repair: bool, convention: str = "auto") -> Document:
+    """The Document of a file that is parsed already; see `read`."""
+    resource = _parsed(parsed, None, repair=repair, convention=convention, family={})
     return Document(resource, archive=parsed.archive, member=parsed.member)
 
 
-def _resource(
-    parsed: Parsed, data: bytes | None, *, repair: bool, convention: str, family: dict[str, Resource]
+def _read(
+    loaded: Loaded, *, repair: bool, convention: str, family: dict[str, Resource]
 ) -> Resource:
+    """One document of a family, without a tree where none is needed to know that it is valid."""
+    if repair or not accepts(loaded.data, loaded.limits):
+        parsed = parse_loaded(loaded, mend=repair)
+        data = None if repair else loaded.data
+        return _parsed(parsed, data, repair=repair, convention=convention, family=family)
+    _log.info("read %s with 0 findings", loaded.file or "a document")
+
+    def opener(file: str) -> Resource:
+        other = loaded.load_relative(file)
+        return _read(other, repair=repair, convention=convention, family=family)
+
+    return Resource(None, loaded.data, parser=lambda: parse_loaded(loaded).tree, file=loaded.file,
+                    opener=opener, family=family, member=loaded.member)  # fmt: skip
+
+
+def _parsed(
+    parsed: Parsed, data: bytes | None, *, repair: bool, convention: str,
+    family: dict[str, Resource],
+) -> Resource:  # fmt: skip
     """One document of a family, whose members are opened when references lead there."""
     report = Report(parsed.file)
     report.extend(parsed.findings)
@@ -65,8 +81,8 @@ def _resource(
         raise SchemaError(report.findings)
 
     def opener(file: str) -> Resource:
-        other = parsed.parse_relative(file)
-        return _resource(other, None, repair=repair, convention=convention, family=family)
+        other = parsed.load_relative(file)
+        return _read(other, repair=repair, convention=convention, family=family)
 
     return Resource(tree, data, file=parsed.file, report=report, opener=opener, family=family,
                     tolerant=repair, member=parsed.member)  # fmt: skip

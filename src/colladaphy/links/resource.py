@@ -11,7 +11,6 @@ from collections.abc import Callable
 from functools import cached_property
 from itertools import islice
 
-import numpy as np
 from lxml import etree
 
 from colladaphy.columns.reading import Document as Columns
@@ -101,12 +100,10 @@ class Resource:
 
     @staticmethod
     def _is_thesis(columns: Columns) -> bool:
-        """Whether a technique of the pe profile may hold names without its namespace."""
+        """Whether a technique of the pe profile begins with a name without its namespace."""
         techniques = columns.rows(TechniqueTypeRows, c("technique"))
-        ours = [profile == "pe" for profile in techniques.profile]
-        if not any(ours):
-            return False
-        return columns.has_foreign_children(techniques.select(np.array(ours)), f"{{{PE}}}")
+        ours = columns.chosen(techniques, "profile", "pe")
+        return columns.has_foreign_content(techniques.select(ours), f"{{{PE}}}")
 
     @property
     def _columns_tree(self) -> etree._ElementTree:

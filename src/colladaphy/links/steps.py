@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from colladaphy.links.affine import lookat_matrix, skew_matrix
 from colladaphy.links.poses import Poses, quaternions_of_turns
 
-__all__ = ["Steps", "Transforms", "matrix_of", "own_transforms", "poses_of_steps", "product", "rigid_parts"]
+__all__ = ["Steps", "Transforms", "matrix_of", "own_transforms", "poses_of", "poses_of_steps", "product", "rigid_parts"]
 
 Array = NDArray[Any]
 
@@ -59,6 +59,19 @@ class Steps:
         """The same without some steps (a mask)."""
         keep = ~rows
         return Steps(self.owner[keep], self.turns[keep], self.values[keep], self.count)
+
+
+def poses_of(elements: Any) -> Poses:
+    """The poses of rows that have children translate and rotate, composed in order."""
+    translate, rotate = elements.translate, elements.rotate
+    if translate.is_whole and rotate.is_whole and len(elements):
+        if bool(np.all(translate.ordinals < rotate.ordinals)):
+            quaternions, turned = quaternions_of_turns(rotate.value)
+            moved = np.ones(len(elements), np.bool_)
+            return Poses(translate.value.copy(), moved, quaternions, turned)
+    elif not len(rotate) and not len(translate):
+        return Poses.none(len(elements))
+    return poses_of_steps(Steps.of(elements))
 
 
 def poses_of_steps(steps: Steps) -> Poses:
@@ -108,11 +121,11 @@ class Transforms:
 
 def own_transforms(nodes: Any) -> Transforms:
     """The transform of each node in its parent."""
-    steps = Steps.of(nodes)
     named = [(name, getattr(nodes, name)) for name in ("matrix", "scale", "skew", "lookat")]
     others = [(name, rows) for name, rows in named if len(rows)]
     if not others:
-        return Transforms(poses_of_steps(steps), {})
+        return Transforms(poses_of(nodes), {})
+    steps = Steps.of(nodes)
     mixed = np.zeros(len(nodes), np.bool_)
     for _, rows in others:
         mixed[rows.owner] = True

@@ -34,31 +34,14 @@ Source = str | os.PathLike[str] | os.PathLike[bytes] | bytes | bytearray | memor
 _DEFAULTS = Limits()
 
 
-@dataclass(frozen=True, slots=True)
-class Loaded:
-    """The bytes of a document before they are parsed (of an archive: of its root document)."""
+class _Placed:
+    """A document that is in some place, from which its relative references start."""
 
-    data: bytes
+    __slots__ = ()
     file: str | None
+    limits: Limits
     origin: Origin | None
-    limits: Limits
-
-
-@dataclass(frozen=True, slots=True)
-class Parsed:
-    """A document whose XML is well-formed and whose root is COLLADA, of any version.
-
-    `file` is its name for messages, `base` the path it was read from where there is one (for an
-    archive: the archive). `member` is the entry of the archive it comes from.
-    """
-
-    tree: etree._ElementTree
-    file: str | None
-    limits: Limits
-    origin: Origin | None = None
-    mended: bool = False
-    """Whether text that is not well-formed was to be mended; `findings` say what was."""
-    findings: tuple[Finding, ...] = ()
+    mended: bool
 
     @property
     def base(self) -> Path | None:
@@ -87,11 +70,42 @@ class Parsed:
             raise InputError(rules.REFERENCE_REFUSED.at(message=message, file=self.file, hint=hint))
         return self.origin.open(url)
 
+    def load_relative(self, url: str) -> Loaded:
+        """The bytes of the document that a relative URL names, with the same border and limits."""
+        resource = self.open_relative(url)
+        return Loaded(resource.data, resource.file, resource.origin, self.limits)
+
     def parse_relative(self, url: str) -> Parsed:
         """The COLLADA document that a relative URL names, with the same border and limits."""
-        resource = self.open_relative(url)
-        loaded = Loaded(resource.data, resource.file, resource.origin, self.limits)
-        return parse_loaded(loaded, mend=self.mended)
+        return parse_loaded(self.load_relative(url), mend=self.mended)
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded(_Placed):
+    """The bytes of a document before they are parsed (of an archive: of its root document)."""
+
+    data: bytes
+    file: str | None
+    origin: Origin | None
+    limits: Limits
+    mended: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed(_Placed):
+    """A document whose XML is well-formed and whose root is COLLADA, of any version.
+
+    `file` is its name for messages, `base` the path it was read from where there is one (for an
+    archive: the archive). `member` is the entry of the archive it comes from.
+    """
+
+    tree: etree._ElementTree
+    file: str | None
+    limits: Limits
+    origin: Origin | None = None
+    mended: bool = False
+    """Whether text that is not well-formed was to be mended; `findings` say what was."""
+    findings: tuple[Finding, ...] = ()
 
 
 def parse(source: Source, limits: Limits = _DEFAULTS, *, mend: bool = False) -> Parsed:

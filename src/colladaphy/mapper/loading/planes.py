@@ -28,5 +28,4 @@ def plane_poses(planes: Array) -> Poses:
     """Where planes (n, 4) stand of which nothing but the equation is known."""
     with np.errstate(all="ignore"):
         positions = planes[:, :3] * planes[:, 3:]
-    turns = [rotations.between((0.0, 0.0, 1.0), normal) for normal in planes[:, :3].tolist()]
-    return Poses.of(len(planes), positions, np.array(turns).reshape(-1, 4))
+    return Poses.of(len(planes), positions, rotations.between((0.0, 0.0, 1.0), planes[:, :3]))

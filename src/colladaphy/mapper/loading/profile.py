@@ -116,8 +116,9 @@ def first_of(owners: Array, techniques: Any, name: str) -> tuple[Any, Array]:
 
     `owners` are the rows that the techniques belong to.
     """
-    ours = np.array([profile == _PROFILE for profile in techniques.profile], np.bool_)
-    ours = techniques if ours.all() else techniques.select(ours)
+    ours = techniques
+    if len(techniques):
+        ours = techniques.select(techniques.origin.chosen(techniques, "profile", _PROFILE))
     found = getattr(ours, name)
     owner = ours.owner[found.owner]
     if len(owner) > 1:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.links.poses import DEGREE, Poses
-from colladaphy.links.steps import Steps, poses_of_steps
+from colladaphy.links.steps import poses_of
 from colladaphy.mapper.loading.shapes import MaterialRefs, ShapeColumns, material_refs, read_shapes
 
 __all__ = ["BodyValues", "InstanceColumns", "overridden", "read_bodies", "read_instances"]
@@ -87,7 +87,7 @@ def _values(elements: Any, common: Any) -> BodyValues:
     has_frame = np.zeros(count, np.bool_)
     if len(frame):
         rows = common.owner[frame.owner]
-        frames.put(rows, poses_of_steps(Steps.of(frame)))
+        frames.put(rows, poses_of(frame))
         has_frame[rows] = True
     dynamic, has_dynamic = _spread(common, common.dynamic, True, ())
     mass, has_mass = _spread(common, common.mass, np.nan, ())
