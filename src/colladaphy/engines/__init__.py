@@ -14,6 +14,7 @@ from colladaphy.engines.observers import Observer, Trajectory
 from colladaphy.engines.protocol import Capabilities, Contact, Engine, Steerable
 from colladaphy.engines.selection import ENGINES, choose, create_engine, engine_names
 from colladaphy.engines.simulation import DEFAULT_TIME_STEP, Simulation
+from colladaphy.engines.streaming import ZarrTrajectory
 
 __all__ = [
     "DEFAULT_TIME_STEP",
@@ -28,6 +29,7 @@ __all__ = [
     "Steerable",
     "Summary",
     "Trajectory",
+    "ZarrTrajectory",
     "angular_momentum",
     "choose",
     "create_engine",

@@ -276,6 +276,12 @@ CHECKPOINT_OTHER_RUN = Rule(
     "The folder holds the checkpoints of a run already.",
     "Go on with that run (--resume), or name another folder.",
 )
+TRAJECTORY = Rule(
+    "engine-trajectory",
+    Severity.ERROR,
+    "A trajectory cannot hold this World.",
+    "Begin another trajectory when bodies come or go.",
+)
 STEPS = Rule(
     "engine-steps",
     Severity.ERROR,
@@ -327,6 +333,7 @@ RULES = (
     CHECKPOINT_NONE,
     CHECKPOINT_STATELESS,
     CHECKPOINT_OTHER_RUN,
+    TRAJECTORY,
     STEPS,
 )
 
