@@ -25,7 +25,7 @@ ASSET = (
     "<modified>2010-01-01T00:00:00Z</modified></asset>"
 )
 OPEN = f'<COLLADA xmlns="{COLLADA_1_5}" version="1.5.0">'
-many = settings(max_examples=3 * settings().max_examples)
+many = settings(max_examples=2 * settings().max_examples)
 
 
 @pytest.fixture(autouse=True, scope="module")
@@ -134,7 +134,7 @@ def test_the_base_of_edits_holds_no_doubt_but_its_foreign_technique() -> None:
     assert agreed(BASE.replace(b'<thing id="c"/>', b""))
 
 
-@settings(max_examples=30 * settings().max_examples)
+@settings(max_examples=10 * settings().max_examples)
 @given(EDITS, st.booleans())
 def test_edits_of_text(edits: list[tuple[int, int, str]], foreign: bool) -> None:
     base = BASE if foreign else BASE.replace(b'<thing id="c"/>', b"")
