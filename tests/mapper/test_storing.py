@@ -18,7 +18,7 @@ from colladaphy.errors import SchemaError
 from colladaphy.links.names import COLLADA, PE
 from colladaphy.mapper import WriteOptions, store
 from colladaphy.mapper.storing import columns_of
-from colladaphy.mapper.storing.checking import faults_of
+from colladaphy.mapper.storing.checking import faults_of, has_unique_ids
 from colladaphy.mapper.storing.turns import mass_frames
 from colladaphy.world import Body, Kind, World, rotations
 
@@ -238,10 +238,11 @@ def test_ids_that_are_there_twice_are_found() -> None:
     world = World()
     world.create_sphere(1, (0, 0, 0), 1.0, "iron")
     columns = columns_of(world)
-    assert faults_of(columns, document_bytes(columns)) == []
+    assert has_unique_ids(columns)
+    assert faults_of(document_bytes(columns), unique_ids=True) == []
     columns.library_visual_scenes.visual_scene.node.id = ["Scene1"]
-    columns.library_physics_models.physics_model.rigid_body.name = ["changed"]
-    faults = faults_of(columns, document_bytes(columns))
+    assert not has_unique_ids(columns)
+    faults = faults_of(document_bytes(columns), unique_ids=False)
     assert [finding.code for finding in faults] == ["schema-duplicate-id"]
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from colladaphy.columns.writing import document_bytes
 from colladaphy.errors import SchemaError
-from colladaphy.mapper.storing.checking import faults_of
+from colladaphy.mapper.storing.checking import faults_of, has_unique_ids
 from colladaphy.mapper.storing.document import columns_of
 from colladaphy_schema.codec import paused_collector
 
@@ -24,8 +24,10 @@ def store(world: World, options: WriteOptions | None = None) -> bytes:
     """The World as a schema-valid document in UTF-8; SchemaError if it should not be one."""
     with paused_collector():
         columns = columns_of(world, options)
+        unique_ids = has_unique_ids(columns)
         data = document_bytes(columns)
-        faults = faults_of(columns, data)
+        del columns  # the parser can use the memory
+        faults = faults_of(data, unique_ids=unique_ids)
     if faults:
         raise SchemaError(faults)
     _log.info("stored %d bodies, %d joints in %d bytes", len(world.bodies), len(world.joints),

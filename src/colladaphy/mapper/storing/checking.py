@@ -12,20 +12,25 @@ from colladaphy_schema.rows import Column, Rows
 if TYPE_CHECKING:
     from colladaphy.findings import Finding
 
-__all__ = ["faults_of"]
+__all__ = ["faults_of", "has_unique_ids"]
 
 
-def faults_of(columns: Rows, data: bytes) -> list[Finding]:
+def faults_of(data: bytes, *, unique_ids: bool) -> list[Finding]:
     """What is wrong with the text of a document; the gate is asked where anything is."""
-    ids = _ids(columns)
-    if len(set(ids)) == len(ids) and is_valid_text(data):
+    if unique_ids and is_valid_text(data):
         return []
     parser = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=True)
     return gate(etree.ElementTree(etree.fromstring(data, parser)))
 
 
+def has_unique_ids(columns: Rows) -> bool:
+    """Whether no id is there twice; libxml2 does not look for that while it parses."""
+    ids = _ids(columns)
+    return len(set(ids)) == len(ids)
+
+
 def _ids(rows: Rows) -> list[str]:
-    """All ids of elements; libxml2 does not look whether one is there twice while it parses."""
+    """All ids of elements."""
     found: list[str] = []
     for field in rows.FIELDS:
         value = rows.known.get(field.name)
