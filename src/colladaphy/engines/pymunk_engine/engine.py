@@ -15,6 +15,7 @@ from colladaphy.engines.options import Value
 from colladaphy.engines.outlines import HalfPlane
 from colladaphy.engines.planar import Planarity, analyse, stays_in_plane
 from colladaphy.engines.protocol import Capabilities, Contact
+from colladaphy.engines.pymunk_engine.batches import Batch
 from colladaphy.engines.pymunk_engine.contacts import contacts_of
 from colladaphy.engines.pymunk_engine.links import Link, plan
 from colladaphy.engines.pymunk_engine.settings import PymunkOptions
@@ -61,7 +62,7 @@ class PymunkEngine:
         self._orientations: Any = np.zeros((0, 4))
         self._clock = Clock(0.0, 0, 1.0)
         self._bounds = Bounds(np.inf, 0.0)
-        self._forced = False  # forces were set that no step has used
+        self._batch = Batch(pymunk.Space(), [])
         self._latest: Any = np.zeros((0, 6))  # the state after the last step
         self._poses = self._speeds = (b"", b"")  # as the World and pymunk last agreed in
         self._stepped = False
@@ -89,7 +90,8 @@ class PymunkEngine:
             raise EngineError(errors)
         fresh = self._is_fresh(world)
         model = build(world, planarity, links, self._options, fresh=fresh)
-        self._plan, self._model, self._forced = planarity, model, True
+        self._plan, self._model = planarity, model
+        self._batch = Batch(model.space, model.bodies)
         self.notices = list(_overlaps(world, model, links, planarity.size)) if fresh else []
         self._bounds = Bounds.of(world, clock.time_step)
         self._poses, self._speeds = _poses(world), _speeds(world)
@@ -115,18 +117,8 @@ class PymunkEngine:
             return
         self._stepped = True
         self._clock.advance(count)
-        self._forced = False
-        state = self._latest = self._state()
+        state = self._latest = self._batch.state()
         self._bounds.check(state[:, 3:5], state, step=self._clock.step_count)
-
-    def _state(self) -> Any:
-        """Position, angle, velocity and angular velocity (n, 6) of the bodies that move."""
-        assert self._model is not None
-        rows = [
-            (*body.position, body.angle, *body.velocity, body.angular_velocity)
-            for body in self._model.bodies
-        ]
-        return np.array(rows, dtype=np.float64).reshape(-1, 6)
 
     def store(self, world: World) -> None:
         """See `Engine.store`."""
@@ -143,7 +135,9 @@ class PymunkEngine:
             world.orientations[rows] = _turned(self._orientations, frame.normal, state[:, 2])
             world.linear_velocities[rows] = frame.lift(state[:, 3:5])
             world.angular_velocities[rows] = state[:, 5:] * frame.normal
-            asleep = np.array([body.is_sleeping for body in self._model.bodies], dtype=np.bool_)
+            asleep = np.zeros(len(rows), dtype=np.bool_)
+            if self._options.sleep:
+                asleep[:] = [body.is_sleeping for body in self._model.bodies]
             world.sleeping[rows] = asleep
             # Chipmunk keeps the velocity with which a body fell asleep; but it stands still.
             world.linear_velocities[rows[asleep]] = 0.0
@@ -165,17 +159,13 @@ class PymunkEngine:
         about = (world.angular_velocities[rows], world.torques[rows])
         if not stays_in_plane(frame, ahead, about):
             return False  # the load says so, and names the bodies
-        flat = [frame.flat(vectors).tolist() for vectors in ahead]
-        turns = [frame.height(vectors).tolist() for vectors in about]
         speeds = _speeds(world)
-        hit = speeds != self._speeds  # or else they would be rounded
-        self._speeds = speeds
-        for body, velocity, force, spin, torque in zip(model.bodies, *flat, *turns, strict=True):
-            if hit:
+        if speeds != self._speeds:  # or else they would be rounded
+            flat, turns = frame.flat(ahead[0]).tolist(), frame.height(about[0]).tolist()
+            for body, velocity, spin in zip(model.bodies, flat, turns, strict=True):
                 body.velocity, body.angular_velocity = tuple(velocity), spin
-            if self._forced or torque or any(force):  # they are zero after a step
-                body.force, body.torque = tuple(force), torque
-        self._forced = True
+        self._speeds = speeds
+        self._batch.push(frame.flat(ahead[1]), frame.height(about[1]))
         self._bounds = self._bounds.widened(world)
         return True
 
