@@ -67,7 +67,7 @@ def worlds(
     wild = draw(st.booleans()) if wild is None else wild
     world = draw(_empty(wild))
     materials = list(world.materials)[:2] + draw(_materials(world, wild))
-    kinds = ["sphere", "box", "capsule", "cylinder", "plane", "ellipsoid"]
+    kinds = ["sphere", "box", "capsule", "cylinder", "plane", "ellipsoid", "empty"]
     if meshes:
         kinds.append("mesh")
     count = draw(st.integers(0, max_bodies))
@@ -182,6 +182,9 @@ def _body(draw: DrawFn, world: World, kind: str, material: Material, wild: bool)
                 return world.create_plane(uid, normal, None, material, position=position, **options)
             except WorldError:  # the displacement of a point far away can overflow
                 return None
+    if kind == "empty":
+        options.setdefault("mass", draw(st.just(0.0) | positives(wild)))
+        return world.create_body(uid, position, **options)
     options["hollow"] = draw(st.booleans())
     if kind == "mesh":
         return draw(_mesh_body(world, uid, position, material, options))

@@ -78,7 +78,9 @@ def _union(union: Body, copy: World) -> Body:
                 orientations=np.array([body.local_orientation for body in primitives]),
                 masses=np.array([body.mass for body in primitives]),
                 inertias=np.array([body.inertia for body in primitives]),
-                material_ids=np.array([body.material.id for body in primitives]),
+                material_ids=np.array(
+                [-1 if body.material is None else body.material.id for body in primitives]
+            ),
                 dimensions=np.array([body.dimensions for body in primitives]),
                 hollow=np.array([body.hollow for body in primitives]),
                 mesh_ids=np.array(

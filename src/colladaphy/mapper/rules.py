@@ -38,6 +38,13 @@ NO_GEOMETRY = Rule(
     "Rigid bodies need a mesh of polygons that encloses a volume, or a primitive.",
     "thesis 4.2",
 )
+NO_BODY = Rule(
+    "load-no-body",
+    _INFO,
+    "A body has neither a shape nor a mass: it is a frame of reference, and no body is made of it.",
+    "Give it a mass, and an inertia, if it is to move.",
+    "COLLADA 1.5 §rigid_body",
+)
 BAD_VALUE = Rule(
     "load-bad-value",
     _WARNING,
@@ -140,6 +147,7 @@ RULES = (
     SEVERAL_GRAVITIES,
     EMPTY_SHAPE,
     NO_GEOMETRY,
+    NO_BODY,
     BAD_VALUE,
     CONVERSION,
     BODY_TWICE,

@@ -109,11 +109,12 @@ class Body:
 
     @property
     def material(self) -> Material | None:
-        """Its material; a union has one if all of its members have the same."""
+        """Its material; a union has one if all of its members have the same, what is empty none."""
         if self.kind is Kind.UNION:
-            materials = {member.material for member in self.members}
+            materials = {member.material for member in self.members} - {None}
             return materials.pop() if len(materials) == 1 else None
-        return self._storage.materials[int(self._get("material_ids"))]
+        id = int(self._get("material_ids"))
+        return None if id < 0 else self._storage.materials[id]
 
     # --- where it is
 

@@ -18,7 +18,7 @@ from colladaphy.world.meshes import Mesh, MeshSource, make_meshes
 from colladaphy.world.rules import ARGUMENT, COLUMNS, DIMENSION, MESH, refuse
 from colladaphy.world.storage import Storage
 
-__all__ = ["BodyOptions", "add_meshes", "create", "create_mesh", "extend", "plane"]
+__all__ = ["BodyOptions", "EmptyOptions", "add_meshes", "create", "create_mesh", "extend", "plane"]
 
 
 class BodyOptions(TypedDict, total=False):
@@ -34,6 +34,17 @@ class BodyOptions(TypedDict, total=False):
     fixed: bool
     hollow: bool
     """The mass is spread over the surface."""
+    sid: int | None
+    name: str | None
+
+
+class EmptyOptions(TypedDict, total=False):
+    """What bodies without a shape take besides position, mass and inertia."""
+
+    orientation: ArrayLike
+    linear_velocity: ArrayLike
+    angular_velocity: ArrayLike
+    fixed: bool
     sid: int | None
     name: str | None
 
@@ -57,12 +68,15 @@ def create(
     sid: int | None = None,
     name: str | None = None,
 ) -> int:
-    """Add a primitive of `dimensions` that are checked already; returns its system id."""
+    """Add a primitive of `dimensions` that are checked already; returns its system id.
+
+    What has no shape has no material.
+    """
     given: dict[str, Any] = {
         "uids": values.user_id(uid),
         "positions": values.vector("position", position),
         "orientations": values.quaternion(orientation),
-        "material_ids": storage.materials.resolve(material).id,
+        "material_ids": -1 if kind is Kind.EMPTY else storage.materials.resolve(material).id,
         "dimensions": dimensions,
         "mesh_ids": mesh_id,
         "fixed": values.flag("flag fixed", fixed),

@@ -34,6 +34,7 @@ __all__ = ["infinite_unions", "prepare", "prepare_members", "prepare_one"]
 Array = NDArray[Any]
 
 _PLANE, _MESH, _UNION = int(Kind.PLANE), int(Kind.MESH), int(Kind.UNION)
+_EMPTY = int(Kind.EMPTY)
 
 _NO_MASS = "Volume times density is out of the range of numbers."
 _NO_INERTIA = "The inertia of a shape is out of the range of numbers."
@@ -62,7 +63,10 @@ def prepare(
                 raise refuse(COLUMNS, f"Rows of unions need the column {name}.")
     values.setdefault("dimensions", np.zeros((count, 4)))
     values.setdefault("hollow", np.zeros(count, dtype=np.bool_))
-    values.setdefault("material_ids", np.where(united, -1, 0))
+    empty = kinds == _EMPTY
+    if "masses" not in values and empty.any():
+        raise refuse(COLUMNS, "Rows without a shape need the column masses.")
+    values.setdefault("material_ids", np.where(united | empty, -1, 0))
     values.setdefault("mesh_ids", np.full(count, -1))
     _check(values, materials, meshes)
     _place(values)
@@ -127,7 +131,7 @@ def _given(source: BodyColumns | MemberColumns, fields: Mapping[str, Field]) -> 
         raise refuse(COLUMNS, "The column kinds has one number a body.") from error
     if kinds.ndim != 1 or (len(kinds) and kinds.dtype.kind not in "iu"):
         raise refuse(COLUMNS, "The column kinds has one number a body.")
-    if len(kinds) and (kinds.min() < 0 or kinds.max() > _UNION):
+    if len(kinds) and (kinds.min() < 0 or kinds.max() > max(Kind)):
         raise refuse(COLUMNS, "The column kinds holds a number that is none of Kind.")
     values: dict[str, Array] = {}
     for name, (dtype, shape) in fields.items():
@@ -174,8 +178,8 @@ def _check_dimensions(kinds: Array, dimensions: Array) -> None:
     planes = dimensions[kinds == _PLANE]
     if not np.all(np.isfinite(planes)) or not np.all(np.any(planes[:, :3] != 0, axis=1)):
         raise refuse(DIMENSION, "The normal of a plane is zero or not finite.")
-    if dimensions[(kinds == _MESH) | (kinds == _UNION)].any():
-        raise refuse(DIMENSION, "A mesh or a union has dimensions that are not zero.")
+    if dimensions[(kinds == _MESH) | (kinds == _UNION) | (kinds == _EMPTY)].any():
+        raise refuse(DIMENSION, "What is no primitive has dimensions that are not zero.")
 
 
 def _check_references(
@@ -186,7 +190,10 @@ def _check_references(
     if united.any():
         if np.any(material_ids[united] != -1) or np.any(values["hollow"][united]):
             raise refuse(COLUMNS, "A union has a material, or is hollow: its members are.")
-        material_ids = material_ids[~united]
+    empty = kinds == _EMPTY
+    if np.any(material_ids[empty] != -1) or np.any(values["hollow"][empty]):
+        raise refuse(COLUMNS, "A body without a shape has a material, or is hollow.")
+    material_ids = material_ids[~(united | empty)]
     materials.rows(distinct(material_ids)[0])
     is_mesh = kinds == _MESH
     for id in distinct(mesh_ids[is_mesh])[0].tolist():
@@ -234,6 +241,8 @@ def prepare_one(
     mass, inertia = given.get("masses"), given.get("inertias")
     if kind is Kind.PLANE:
         return {**filled, "fixed": True}
+    if kind is Kind.EMPTY:
+        return {**filled, "inertias": np.zeros((3, 3)) if inertia is None else inertia}
     if kind is Kind.MESH or given["hollow"]:
         needed = ("kinds", "dimensions", "hollow", "mesh_ids", "material_ids")
         row = {name: np.array([filled[name]]) for name in needed}

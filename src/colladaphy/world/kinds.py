@@ -18,6 +18,8 @@ class Kind(IntEnum):
     ELLIPSOID = 5
     MESH = 6
     UNION = 7
+    EMPTY = 8
+    """No shape at all: mass and inertia alone, which nothing collides with."""
 
 
 class JointKind(IntEnum):

@@ -13,7 +13,7 @@ from colladaphy.world import joints as joining
 from colladaphy.world.attributes import Column, Held, Setting
 from colladaphy.world.body import Body, sid_of
 from colladaphy.world.columns import BodyColumns, JointColumns, MemberColumns
-from colladaphy.world.creating import BodyOptions
+from colladaphy.world.creating import BodyOptions, EmptyOptions
 from colladaphy.world.handles import Handles
 from colladaphy.world.joints import Joint, Joints
 from colladaphy.world.kinds import Kind
@@ -214,6 +214,18 @@ class World:
             self._storage, uid, position, vertices, faces, material, convex, **options
         )
         return Body(self._storage, made)
+
+    def create_body(
+        self, uid: int, position: ArrayLike, mass: float, inertia: ArrayLike | None = None,
+        **options: Unpack[EmptyOptions],
+    ) -> Body:  # fmt: skip
+        """A body of mass and inertia without any shape, which nothing collides with.
+
+        The inertia is (3, 3) about the centre of mass in the body frame, or its diagonal (3,);
+        None is that of a point, zero.
+        """
+        given: Any = {**options, "mass": values.mass(mass), "inertia": inertia}
+        return self._create(Kind.EMPTY, uid, position, (0.0, 0.0, 0.0, 0.0), None, **given)
 
     def _create(self, *arguments: Any, **options: Unpack[BodyOptions]) -> Body:
         return Body(self._storage, creating.create(self._storage, *arguments, **options))

@@ -134,9 +134,13 @@ class _Loading:
             rows = np.flatnonzero(stated)
             known = ~np.isnan(materials.densities(members.material_rows[rows]))
             given[rows[known]] = np.nan
-        self._material_ids = materials.ids(
-            members.material_rows, given, members.homes, members.ordinals
-        )
+        shaped = np.flatnonzero(members.kinds != Kind.EMPTY)
+        self._material_ids = np.full(len(members), -1, np.int64)
+        if len(shaped):
+            self._material_ids[shaped] = materials.ids(
+                members.material_rows[shaped], given[shaped], members.homes[shaped],
+                members.ordinals[shaped],
+            )  # fmt: skip
 
     def loaded(self, linear: Array, angular: Array) -> LoadedBodies:
         found = self._found
@@ -184,6 +188,10 @@ class _Loading:
         placed = members.poses.take(rows)
         parts.mesh_ids, parts.hollow = members.mesh_ids[rows], members.hollow[rows]
         parts.material_ids = self._material_ids[rows]
+        bare = np.flatnonzero(parts.kinds == Kind.EMPTY)
+        if len(bare):
+            placed = self._bare(bodies, bare, placed)
+            parts.hollow[bare] = False
         kept = self._kept[bodies] if self._prefer != "common" else np.full(count, -1)
         profile = self._profile
         shaped = np.flatnonzero((kept >= 0) & _of(profile.shaped, kept))
@@ -210,6 +218,14 @@ class _Loading:
                 _of(whole.inertia, described_rows, np.nan, (9,)), has,
             )  # fmt: skip
         return parts, placed
+
+    def _bare(self, bodies: Array, bare: Array, placed: Poses) -> Poses:
+        """The poses with those of bodies without a shape, whose centre their mass frame says."""
+        made = placed.take(np.arange(len(placed)))
+        frames = self._values.frames.take(bodies[bare]).places_only()
+        frames.moved &= np.any(frames.positions != 0.0, axis=1)
+        made.put(bare, frames)
+        return made
 
     def stated_inertias(self, bodies: Array, poses: Poses) -> Array:
         """What the common profile says (n, 9), in the frames of parts at poses in rigid_bodies."""
@@ -377,6 +393,7 @@ def _system_ids(sids: list[str]) -> Array:
 def _off_center(members: Members, rows: Array, values: BodyValues, bodies: Array) -> Array:
     """Whether a single shape's centre is not the centre of mass that the body states."""
     frames = values.has_frame[bodies] & (members.kinds[rows] != Kind.PLANE)
+    frames &= members.kinds[rows] != Kind.EMPTY
     off = np.zeros(len(rows), np.bool_)
     mine = np.flatnonzero(frames)
     if len(mine):

@@ -127,8 +127,9 @@ def read_members(
     problems: dict[int, ShapeFault] = {}
     is_mesh = np.flatnonzero(kinds == Kind.MESH)
     if len(is_mesh):
+        kinds = kinds.copy()
         poses = _meshes(tables, every, rows, homes, ordinals, hollow, is_mesh, geometries, placed,
-                        mesh_ids, reach, body_reach, volumes, problems)  # fmt: skip
+                        mesh_ids, reach, body_reach, volumes, problems, kinds)  # fmt: skip
     for row in np.flatnonzero(faults != NONE).tolist():
         problems[row] = _fault(int(faults[row]), Kind(max(int(kinds[row]), 0)), dimensions[row])
     for kind in np.unique(kinds).tolist():
@@ -142,13 +143,51 @@ def read_members(
     members = Members(owner, homes, ordinals, kinds, dimensions, poses, placed, hollow, mass,
                       density, material, np.full(count, UNSPECIFIED), mesh_ids, reach,
                       body_reach, volumes)  # fmt: skip
+    left = np.ones(count, np.bool_)
+    left[list(problems)] = False
     if problems:
+        _empty_bodies(members, values, problems, left)
         for row in sorted(problems):
-            _note(tables, bodies, members, row, problems[row])
-        left = np.ones(count, np.bool_)
-        left[list(problems)] = False
-        members = _kept(members, np.flatnonzero(left))
-    return members
+            _note(tables, bodies, members, row, problems[row], skipped=not left[row])
+    weightless = (members.kinds == Kind.EMPTY) & np.isnan(mass) & ~values.has_mass[owner]
+    if weightless.any():
+        _note_frames(tables, bodies, members, weightless)
+        left &= ~weightless
+    return members if left.all() else _kept(members, np.flatnonzero(left))
+
+
+def _empty_bodies(
+    members: Members, values: BodyValues, problems: dict[int, ShapeFault], left: Array
+) -> None:
+    """Keep bodies of which no shape is left, but which state their mass and inertia."""
+    whole = np.bincount(members.owner[left], minlength=len(values.mass)) == 0
+    whole &= values.has_mass & values.has_inertia
+    seen: set[int] = set()
+    for row in sorted(problems):
+        body = int(members.owner[row])
+        if whole[body] and body not in seen:
+            seen.add(body)
+            members.kinds, members.dimensions = members.kinds.copy(), members.dimensions.copy()
+            members.kinds[row], members.mesh_ids[row] = Kind.EMPTY, -1
+            members.dimensions[row] = 0.0
+            left[row] = True
+
+
+def _note_frames(
+    tables: Tables, bodies: FoundBodies, members: Members, weightless: Array
+) -> None:
+    """Note the bodies that have neither shape nor mass."""
+    count = np.bincount(members.owner[~weightless], minlength=len(bodies))
+    noted: set[int] = set()
+    for body in np.unique(members.owner[weightless]).tolist():
+        row = int(bodies.bodies[body])
+        if count[body] or row in noted:
+            continue
+        noted.add(row)
+        name = tables.bodies.texts("name")[row] or tables.bodies.texts("sid")[row] or "?"
+        home = tables.pool.resources[int(bodies.body_homes[body])]
+        message = f"The body {name!r} has neither a shape nor a mass."
+        tables.resource.note(rules.NO_BODY, int(tables.bodies.ordinals[row]), message, home=home)
 
 
 def _kept(members: Members, rows: Array) -> Members:
@@ -175,6 +214,7 @@ def _meshes(
     body_reach: Array,
     volumes: Array,
     problems: dict[int, ShapeFault],
+    kinds: Array,
 ) -> Poses:
     """Find the meshes of shapes; gives the poses of their centres of mass."""
     urls = [every.urls[row] for row in rows[places].tolist()]
@@ -190,6 +230,9 @@ def _meshes(
         place = int(places[at])
         if isinstance(mesh, ShapeFault):
             problems[place] = mesh
+            continue
+        if mesh is None:
+            kinds[place] = Kind.EMPTY
             continue
         mesh_ids[place] = mesh.id
         reach[place], body_reach[place], centers[at] = sizes.of(mesh, bool(hollow[place]))
@@ -214,12 +257,14 @@ def _fault(code: int, kind: Kind, dimensions: Array) -> ShapeFault:
 
 
 def _note(
-    tables: Tables, bodies: FoundBodies, members: Members, row: int, problem: ShapeFault
-) -> None:
+    tables: Tables, bodies: FoundBodies, members: Members, row: int, problem: ShapeFault, *,
+    skipped: bool,
+) -> None:  # fmt: skip
     body = int(bodies.bodies[members.owner[row]])
     name = tables.bodies.texts("name")[body] or tables.bodies.texts("sid")[body] or "?"
     rule = rules.EMPTY_SHAPE if problem.empty else rules.NO_GEOMETRY
-    message = f"{problem.message} The shape of body {name!r} is skipped."
+    left = "is skipped" if skipped else "is left out, its mass and inertia are kept"
+    message = f"{problem.message} The shape of body {name!r} {left}."
     home = tables.pool.resources[int(members.homes[row])]
     tables.resource.note(rule, int(members.ordinals[row]), message, home=home)
 
@@ -239,6 +284,8 @@ def complete(
     """
     members.material_rows = _material_rows(bodies, members, values, instance_values, materials)
     owner = members.owner
+    bare = np.isnan(members.masses) & (members.kinds == Kind.EMPTY)
+    members.masses[bare] = 0.0
     missing = np.isnan(members.masses) & (members.kinds != Kind.PLANE)
     if missing.any():
         _by_density(tables, bodies, members, values, materials, np.flatnonzero(missing))

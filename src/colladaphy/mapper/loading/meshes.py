@@ -39,6 +39,8 @@ class _Read:
     convex: bool
     hull_of: str | None
     origin: int
+    nothing: bool
+    """Whether there are no points at all: the hull of nothing stands for no shape."""
 
 
 class Geometries:
@@ -48,10 +50,10 @@ class Geometries:
         self._tables = tables
         self._world = world
         self._read: dict[int, _Read | None] = {}
-        self._known: dict[int, Mesh | ShapeFault] = {}
+        self._known: dict[int, Mesh | ShapeFault | None] = {}
 
-    def meshes(self, rows: Array) -> list[Mesh | ShapeFault]:
-        """The meshes of geometries, created in this order."""
+    def meshes(self, rows: Array) -> list[Mesh | ShapeFault | None]:
+        """The meshes of geometries, created in this order; None for the hull of nothing."""
         listed = rows.tolist()
         fresh = list(dict.fromkeys(row for row in listed if row not in self._known))
         if fresh:
@@ -63,7 +65,7 @@ class Geometries:
         made: list[tuple[int, Array, Array, bool]] = []
         for row in rows:
             surface = self._surface(row, [])
-            if isinstance(surface, ShapeFault):
+            if surface is None or isinstance(surface, ShapeFault):
                 self._known[row] = surface
                 continue
             vertices, faces, convex, is_hull = surface
@@ -152,16 +154,24 @@ class Geometries:
                     continue
                 hulls = found.convex_hull_of if name == "convex_mesh" else [None] * len(found)
                 surfaces = read_surfaces(found)
-                for row, origin, surface, hull_of in zip(
+                bare = np.ones(len(found), np.bool_)
+                bare[found.source.owner] = False
+                bare &= name == "convex_mesh"
+                for row, origin, surface, hull_of, nothing in zip(
                     mine[found.owner].tolist(), found.ordinals.tolist(), surfaces, hulls,
-                    strict=True,
+                    bare.tolist(), strict=True,
                 ):  # fmt: skip
-                    self._read[row] = _Read(surface, name == "convex_mesh", hull_of, origin)
+                    self._read[row] = _Read(
+                        surface, name == "convex_mesh", hull_of, origin, nothing
+                    )
 
     def _surface(
         self, row: int, path: list[int]
-    ) -> tuple[Array, Array, bool, bool] | ShapeFault:
-        """Vertices, faces, whether they are convex, and whether they are a computed hull."""
+    ) -> tuple[Array, Array, bool, bool] | ShapeFault | None:
+        """Vertices, faces, whether they are convex, and whether they are a computed hull.
+
+        None where there is nothing, on purpose.
+        """
         name = self._tables.geometries.texts("id")[row]
         if row in path:
             return ShapeFault(f"The geometry {name!r} is a convex hull of itself.")
@@ -178,7 +188,9 @@ class Geometries:
             if errors:
                 return ShapeFault(_message(errors[0]))
             outer = self._surface(int(found[0]), [*path, row])
-            return outer if isinstance(outer, ShapeFault) else _hull_of(outer[0])
+            return _hull_of(outer[0]) if isinstance(outer, tuple) else outer
+        if read.nothing:
+            return None
         if read.surface.fault is not None:
             return ShapeFault(read.surface.fault)
         vertices, faces = read.surface.vertices, read.surface.faces

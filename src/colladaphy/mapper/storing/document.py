@@ -24,8 +24,9 @@ from colladaphy.mapper.storing.leaves import Leaves
 from colladaphy.mapper.storing.materials import materials_of, pairs_of
 from colladaphy.mapper.storing.meshes import geometries_of
 from colladaphy.mapper.storing.rows import labelled, technique
-from colladaphy.mapper.storing.shapes import shapes_of, tessellated
+from colladaphy.mapper.storing.shapes import NO_SHAPE, shapes_of, tessellated
 from colladaphy.mapper.storing.tree import Tree
+from colladaphy.world.kinds import Kind
 from colladaphy.world.masses import distinct
 from colladaphy_schema import document_columns as document
 from colladaphy_schema import pe_columns as pe
@@ -130,9 +131,10 @@ def _add_geometries(
     used = _used(leaves.values["mesh_ids"]).tolist() if len(leaves) else []
     known = world.meshes
     everything = [(f"Mesh{id}", known[id]) for id in used] + meshes
-    if everything:
+    empty = bool(np.any(leaves.values["kinds"] == int(Kind.EMPTY)))
+    if everything or empty:
         library = LibraryGeometriesTypeRows(1)
-        library.geometry = geometries_of(everything)
+        library.geometry = geometries_of(everything, NO_SHAPE if empty else None)
         root.library_geometries = library
 
 

@@ -28,6 +28,7 @@ Array = NDArray[Any]
 
 _UNION = int(Kind.UNION)
 _MESH = int(Kind.MESH)
+_EMPTY = int(Kind.EMPTY)
 _SHARED = ("sids", "uids", "kinds", "positions", "masses", "inertias", "material_ids",
            "dimensions", "hollow", "mesh_ids")  # fmt: skip
 
@@ -134,7 +135,9 @@ class Leaves:
             says_shape = np.ones(len(self), np.bool_)
         elif boxes.any():
             says_shape[boxes] = ~halves_are_exact(dimensions[boxes])
-        self.exact_kinds: Array = np.where(says_shape & (kinds != _MESH), kinds, -1)
+        self.exact_kinds: Array = np.where(
+            says_shape & (kinds != _MESH) & (kinds != _EMPTY), kinds, -1
+        )
         """(k,) the kind of the geometry that is for the pe profile to say, -1 for none."""
 
     def per_body(self, values: Array, count: int) -> Array:

@@ -35,15 +35,21 @@ __all__ = ["geometries_of"]
 Array = NDArray[Any]
 
 
-def geometries_of(meshes: Sequence[tuple[str, Mesh]]) -> GeometryTypeRows:
-    """The geometry of each mesh, its vertices and faces as they are stored, by its id."""
+def geometries_of(meshes: Sequence[tuple[str, Mesh]], nothing: str | None) -> GeometryTypeRows:
+    """The geometry of each mesh, its vertices and faces as they are stored, by its id.
+
+    `nothing` is the id of one more, the convex hull of no points.
+    """
     count = len(meshes)
-    rows = GeometryTypeRows(count, np.zeros(count, np.int64))
-    rows.id = [id for id, _ in meshes]
+    every = count + (nothing is not None)
+    rows = GeometryTypeRows(every, np.zeros(every, np.int64))
+    rows.id = [id for id, _ in meshes] + ([] if nothing is None else [nothing])
     convex = np.array([mesh.convex for _, mesh in meshes], dtype=np.bool_)
-    if convex.any():
+    if convex.any() or nothing is not None:
         there = np.flatnonzero(convex)
-        hulls = ConvexMeshTypeRows(len(there), there)
+        hulls = ConvexMeshTypeRows(
+            len(there) + every - count, np.append(there, np.arange(count, every))
+        )
         _fill(hulls, [meshes[row] for row in there.tolist()])
         rows.convex_mesh = hulls
     if not convex.all():
@@ -55,6 +61,9 @@ def geometries_of(meshes: Sequence[tuple[str, Mesh]]) -> GeometryTypeRows:
 
 
 def _fill(rows: ConvexMeshTypeRows | MeshTypeRows, meshes: Sequence[tuple[str, Mesh]]) -> None:
+    """Fill the first of the rows with the meshes."""
+    if not meshes:
+        return
     ids = [id for id, _ in meshes]
     points = _lists([mesh.vertices for _, mesh in meshes])
     corners = _lists([mesh.faces for _, mesh in meshes])

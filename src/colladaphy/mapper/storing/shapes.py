@@ -25,12 +25,14 @@ from colladaphy_schema.physics_columns import (
 if TYPE_CHECKING:
     from colladaphy.world import Mesh, World
 
-__all__ = ["shapes_of", "tessellated"]
+__all__ = ["NO_SHAPE", "shapes_of", "tessellated"]
 
 Array = NDArray[Any]
 Steps = list[tuple[Array, Array]]
 
-_MESH = int(Kind.MESH)
+_EMPTY = int(Kind.EMPTY)
+NO_SHAPE = "NoShape"
+"""The id of the geometry that stands for no shape, as the schema asks for one: a hull of nothing."""
 _ONTO_X = np.array([0.0, 0.0, 1.0, -90.0])
 """Turns COLLADA's y axis of capsules and cylinders onto the World's x axis."""
 
@@ -48,22 +50,24 @@ def shapes_of(
     rows.mass = float1(values["masses"], leaves.has_mass)
     if leaves.has_density.any():
         rows.density = float1(leaves.densities, leaves.has_density)
-    rows.instance_physics_material = material(values["material_ids"])
+    empty = values["kinds"] == _EMPTY
+    rows.instance_physics_material = material(values["material_ids"], ~empty)
     rows_of_urls: list[str | None] | None = None
-    if stand_ins is not None or bool((values["mesh_ids"] >= 0).any()):
-        rows_of_urls = _urls(values["mesh_ids"], stand_ins)
+    if stand_ins is not None or empty.any() or bool((values["mesh_ids"] >= 0).any()):
+        rows_of_urls = _urls(values["mesh_ids"], empty, stand_ins)
     add_geometry(rows, values["kinds"], values["dimensions"], leaves.equations, rows_of_urls)
     _add_transforms(rows, world, leaves, stand_ins)
     return rows
 
 
-def _urls(mesh_ids: Array, stand_ins: list[str | None] | None) -> list[str | None]:
+def _urls(mesh_ids: Array, empty: Array, stand_ins: list[str | None] | None) -> list[str | None]:
     """References to geometries (k,), None for primitives."""
     there = np.flatnonzero(mesh_ids >= 0)
     urls = np.full(len(mesh_ids), None, dtype=object)
     if stand_ins is not None:
         urls[:] = [None if id is None else f"#{id}" for id in stand_ins]
     urls[there] = labelled("#Mesh", mesh_ids[there])
+    urls[empty] = f"#{NO_SHAPE}"
     listed: list[str | None] = urls.tolist()
     return listed
 
