@@ -71,7 +71,6 @@ def outlines(
     columns = world.columns()
     tops: NDArray[Any] = columns.kinds != Kind.UNION
     tops &= columns.kinds != Kind.EMPTY
-    tops &= columns.kinds != Kind.EMPTY
     singles = _Shapes.of_columns(columns, np.flatnonzero(tops))
     place = 0
     for row, body in enumerate(world.bodies):

@@ -55,8 +55,6 @@ def _shapes(world: World, sid: int, pose: Pose, *, top: bool) -> Iterator[Shape]
         return
     if kind is Kind.EMPTY:
         return
-    if kind is Kind.EMPTY:
-        return
     yield Shape(
         kind,
         pose,
