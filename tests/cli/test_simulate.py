@@ -49,7 +49,7 @@ def test_the_result_is_that_of_the_library(
     assert "steps             50, up to 50" in output.out
     for what in ("engine            mujoco", "contacts", "kinetic energy", "momentum"):
         assert what in output.out
-    assert "engine-restitution" in output.err
+    assert "engine-joint-velocity" in output.err
     assert "\r" not in output.err  # no progress where nobody looks on
     assert sorted(path.name for path in tmp_path.iterdir()) == ["out.dae", scene.name]
 
