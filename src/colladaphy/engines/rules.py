@@ -155,7 +155,7 @@ JOINT_DISPLACED = Rule(
     "engine-joint-displaced",
     Severity.WARNING,
     "The two bodies of a joint are not where the joint holds them.",
-    "The engine puts them there before the first step; check the frames of the joint.",
+    "The engine brings them there before or in the first steps; check the frames of the joint.",
     "COLLADA 1.5 §rigid_constraint",
 )
 JOINT_OUTSIDE = Rule(
