@@ -50,9 +50,15 @@ class Bounds:
         way = max(speed * self.time_step, float(np.abs(push).max(initial=0.0)) * self.time_step**2)
         return Bounds(max(self.way, _MEASURE * way), self.time_step)
 
-    def check(self, linear: Floats, *others: Floats, step: int) -> None:
-        """EngineError unless all is finite and no linear velocity (n, 3) is beyond measure."""
-        finite = all(bool(np.all(np.isfinite(values))) for values in (linear, *others))
+    def check(self, linear: Floats, *others: Floats, step: int, most: float = np.inf) -> None:
+        """EngineError unless no linear velocity (n, 3) is beyond measure, and all finite.
+
+        `most`: no number is larger, as the engine could not go on from it.
+        """
+        finite = all(
+            bool(np.all(np.isfinite(values) & (np.abs(values) <= most)))
+            for values in (linear, *others)
+        )
         fastest = float(np.abs(linear).max(initial=0.0)) if finite else np.inf
         if fastest * self.time_step <= self.way:
             return

@@ -141,8 +141,9 @@ class MujocoEngine:
             message = f"The simulation has diverged by step {self._clock.step_count}."
             raise refuse(DIVERGED, message)
         assert self._motion is not None
-        linear = self._motion.free_speeds(self._data)
-        self._bounds.check(linear, self._data.qpos, self._data.qvel, step=self._clock.step_count)
+        linear, data = self._motion.free_speeds(self._data), self._data
+        step = self._clock.step_count
+        self._bounds.check(linear, data.qpos, data.qvel, step=step, most=refusals.MOST)
 
     def store(self, world: World) -> None:
         """See `Engine.store`."""

@@ -36,10 +36,11 @@ if TYPE_CHECKING:
     from colladaphy.findings import Finding
     from colladaphy.world import Body, Joint, World
 
-__all__ = ["check", "overlaps"]
+__all__ = ["MOST", "check", "overlaps"]
 
 _LEAST = 1e-15  # mjMINVAL
-_MOST = 1e10  # mjMAXVAL
+MOST = 1e10
+"""The largest number that MuJoCo computes with (mjMAXVAL)."""
 _MOST_MASS = 1e20
 _COMPILE = 2.5e-7  # seconds for the square of the number of bodies, on a machine of 2024
 _LONG = 5.0  # seconds worth a word
@@ -71,7 +72,7 @@ def _duration(world: World) -> Iterator[Finding]:
 
 
 def _gravity(world: World) -> Iterator[Finding]:
-    if np.any(np.abs(world.gravity) > _MOST):
+    if np.any(np.abs(world.gravity) > MOST):
         message = f"Gravity is {world.gravity.tolist()}, beyond what MuJoCo computes with."
         yield SIZE.at(message=message)
 
@@ -89,7 +90,7 @@ def _bodies(world: World) -> Iterator[Finding]:
     numbers = np.concatenate(
         [world.positions, world.linear_velocities, world.angular_velocities], axis=1
     )
-    huge |= np.any(np.abs(numbers) > _MOST, axis=1)
+    huge |= np.any(np.abs(numbers) > MOST, axis=1)
     for row in np.flatnonzero(massless).tolist():
         body = world.bodies[row]
         yield MASS.at(message=f"{body!r} can move, but has the mass {body.mass:g} and the "
