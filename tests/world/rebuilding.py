@@ -79,8 +79,8 @@ def _union(union: Body, copy: World) -> Body:
                 masses=np.array([body.mass for body in primitives]),
                 inertias=np.array([body.inertia for body in primitives]),
                 material_ids=np.array(
-                [-1 if body.material is None else body.material.id for body in primitives]
-            ),
+                    [-1 if body.material is None else body.material.id for body in primitives]
+                ),
                 dimensions=np.array([body.dimensions for body in primitives]),
                 hollow=np.array([body.hollow for body in primitives]),
                 mesh_ids=np.array(

@@ -146,7 +146,8 @@ def factors_of(ranges: Ranges) -> tuple[Array, Array]:
 def _few(words: Array, lengths: Array) -> tuple[Array, Array] | None:
     """The same for texts of which there are hardly any different ones; None for others."""
     numbers = np.full(len(lengths), -1, np.int64)
-    left, rows = np.arange(len(lengths)), []
+    rows: list[int] = []
+    left = np.arange(len(lengths))
     while len(left):
         if len(rows) == _MOST_LOOKED_FOR:
             return None

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from lxml import etree
 
@@ -172,9 +172,7 @@ class Document(Choosable):
         if target is resource:
             return Target(self, target.element(number))
         if id(target) not in self._others:
-            self._others[id(target)] = Document(
-                target, archive=self.archive, member=target.member
-            )
+            self._others[id(target)] = Document(target, archive=self.archive, member=target.member)
         return Target(self._others[id(target)], target.element(number))
 
     # --- Worlds

@@ -1,4 +1,4 @@
-"""Finding dataclasses in `Document.root` by id and by paths of sids (COLLADA 1.5 §Address syntax)."""
+"""Find dataclasses in `Document.root` by id and by paths of sids (COLLADA 1.5 §Address syntax)."""
 
 from __future__ import annotations
 

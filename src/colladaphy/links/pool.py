@@ -146,12 +146,15 @@ class Table(Generic[R]):
 
     def row_of(self, home: int, element: int) -> int:
         """The row of an element; -1 for one of another kind."""
-        part = self.parts[home]
-        assert part.ordinals is not None
-        row = int(np.searchsorted(part.ordinals, element))
-        if row < len(part) and part.ordinals[row] == element:
-            return self._starts[home] + row
-        return -1
+        return int(self.rows_of(home, np.array([element]))[0])
+
+    def rows_of(self, home: int, elements: Array) -> Array:
+        """The rows of elements (n,) of one document; -1 for those of another kind."""
+        mine = self.parts[home].ordinals
+        assert mine is not None
+        rows = np.minimum(np.searchsorted(mine, elements), max(len(mine) - 1, 0))
+        there = mine[rows] == elements if len(mine) else np.zeros(len(elements), np.bool_)
+        return np.where(there, rows + self._starts[home], -1)
 
     def homes(self, rows: Array) -> Array:
         """The numbers of the documents that rows are of."""
@@ -201,13 +204,14 @@ class Table(Generic[R]):
         It is called with the rows, the number of the document and that of the first row.
         """
         parts = self.parts
-        known, joined = self._gathered.get(read, ([], None))
-        if joined is None or len(known) < len(parts):
+        gathered: tuple[list[T], T] | None = self._gathered.get(read)
+        if gathered is None or len(gathered[0]) < len(parts):
+            known = gathered[0] if gathered is not None else []
             for home in range(len(known), len(parts)):
                 known.append(read(parts[home], home, self._starts[home]))
-            joined = concatenated(known)
-            self._gathered[read] = (known, joined)
-        return joined
+            gathered = (known, concatenated(known))
+            self._gathered[read] = gathered
+        return gathered[1]
 
     def texts(self, name: str) -> list[Any]:
         """A column of texts of all rows."""

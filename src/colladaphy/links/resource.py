@@ -106,6 +106,12 @@ class Resource:
         return columns.has_foreign_content(techniques.select(ours), f"{{{PE}}}")
 
     @property
+    def has_other_spelling(self) -> bool:
+        """Whether the columns are those of a copy, with the profile in our own spelling."""
+        assert self.columns is not None
+        return self._shown is not None
+
+    @property
     def _columns_tree(self) -> etree._ElementTree:
         """The tree whose elements are those of the columns."""
         assert self.columns is not None

@@ -20,7 +20,6 @@ from colladaphy.world.columns import BODY_FIELDS, MEMBER_FIELDS
 from colladaphy.world.joints import JOINT_FIELDS
 from colladaphy.world.materials import VALUES
 
-
 __all__ = ["join"]
 
 

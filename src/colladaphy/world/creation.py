@@ -187,9 +187,8 @@ def _check_references(
 ) -> None:
     kinds, material_ids, mesh_ids = values["kinds"], values["material_ids"], values["mesh_ids"]
     united = kinds == _UNION
-    if united.any():
-        if np.any(material_ids[united] != -1) or np.any(values["hollow"][united]):
-            raise refuse(COLUMNS, "A union has a material, or is hollow: its members are.")
+    if np.any(material_ids[united] != -1) or np.any(values["hollow"][united]):
+        raise refuse(COLUMNS, "A union has a material, or is hollow: its members are.")
     empty = kinds == _EMPTY
     if np.any(material_ids[empty] != -1) or np.any(values["hollow"][empty]):
         raise refuse(COLUMNS, "A body without a shape has a material, or is hollow.")

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import orjson
 from numpy.typing import NDArray
 
 from colladaphy.links.poses import Poses, rotate_vectors, unit_quaternions
@@ -64,7 +65,10 @@ def load_bodies(
     """Everything that the documents say of the bodies that are found."""
     own = tables.bodies.gather(read_bodies)
     theirs = tables.body_instances.gather(read_instances)
-    body_values, instance_values = _taken(own.values, found.bodies), _taken(theirs.values, found.rows)
+    body_values, instance_values = (
+        _taken(own.values, found.bodies),
+        _taken(theirs.values, found.rows),
+    )
     values = overridden(body_values, instance_values)
     members = read_members(tables, found, values, (own.shapes, theirs.shapes), geometries)
     has_shape = np.zeros(len(found), np.bool_)
@@ -75,16 +79,18 @@ def load_bodies(
         places = np.cumsum(has_shape) - 1
         members.owner = places[members.owner]
         found = FoundBodies(tables, found.models[kept], found.rows[kept], found.bodies[kept],
-                            found.poses.take(kept))  # fmt: skip
+                            found.nodes[kept], found.poses.take(kept))  # fmt: skip
         values, instance_values = _taken(values, kept), _taken(instance_values, kept)
-    return _Loading(tables, found, members, values, instance_values, world, materials,
-                    prefer).loaded(theirs.linear[found.rows], theirs.angular[found.rows])  # fmt: skip
+    loading = _Loading(
+        tables, found, members, values, instance_values, world, materials, prefer
+    )  # fmt: skip
+    return loading.loaded(theirs.linear[found.rows], theirs.angular[found.rows])
 
 
 def _taken(values: BodyValues, rows: Array) -> BodyValues:
     if len(rows) == len(values.mass) and bool(np.all(rows == np.arange(len(rows)))):
         return values
-    made = {}
+    made: dict[str, Any] = {}
     for name in BodyValues.__dataclass_fields__:
         column = getattr(values, name)
         made[name] = column.take(rows) if isinstance(column, Poses | MaterialRefs) else column[rows]
@@ -123,7 +129,7 @@ class _Loading:
         self._first = np.cumsum(counts) - counts
         lone = counts == 1
         off = lone & ~self._is_union
-        off[off] = _off_center(members, self._first[off], values, np.flatnonzero(off))
+        off[off] = _off_center(members, self._first[off], values, np.flatnonzero(off), world)
         self._compound = self._is_union | ~lone | off
         shares = values.has_mass & ~self._is_union & (~lone | off)
         complete(tables, found, members, values, instance_values, materials, shares)
@@ -258,7 +264,9 @@ class _Loading:
         kept = self._kept
         there = np.flatnonzero(kept >= 0)
         mine = kept[there]
-        parts.uids[tops[there]] = np.where(profile.bodies.has_uid[mine], profile.bodies.uid[mine], 0)
+        parts.uids[tops[there]] = np.where(
+            profile.bodies.has_uid[mine], profile.bodies.uid[mine], 0
+        )
         sids = tables.bodies.texts("sid")
         wanted = _system_ids([sids[row] for row in found.bodies[there].tolist()])
         explicit = profile.bodies.has_sid[mine] & (profile.bodies.sid[mine] != 0)
@@ -268,7 +276,13 @@ class _Loading:
         if not (_any_named(names) or _any_named(others) or _any_named(kept_names)):
             return
         for body, (row, instance, top, said) in enumerate(
-            zip(found.bodies.tolist(), found.rows.tolist(), tops.tolist(), kept.tolist(), strict=True)
+            zip(
+                found.bodies.tolist(),
+                found.rows.tolist(),
+                tops.tolist(),
+                kept.tolist(),
+                strict=True,
+            )
         ):
             del body
             stated = names[row]
@@ -309,7 +323,8 @@ class _Loading:
         else:
             parts.poses.put(tops, poses)
         for name, column, exact, has in (
-            ("linear velocity", loaded.linear, motions.linear_velocity, motions.has_linear_velocity),
+            ("linear velocity", loaded.linear, motions.linear_velocity,
+             motions.has_linear_velocity),
             ("angular velocity", loaded.angular, motions.angular_velocity,
              motions.has_angular_velocity),
         ):  # fmt: skip
@@ -385,12 +400,22 @@ def _any_named(names: list[Any]) -> bool:
 
 def _system_ids(sids: list[str]) -> Array:
     """The system ids that our own sids of bodies are made of; -1 for others."""
+    joined = "\n".join(["", *sids])
+    count = len(sids)
+    if count and joined.count("\nBody") == count == joined.count("B") and len(joined) < 22 * count:
+        try:
+            numbers = orjson.loads(f"[{joined.replace(chr(10) + 'Body', ',')[1:]}]")
+            return np.array(numbers, np.int64)
+        except (ValueError, OverflowError):
+            pass  # not all of them are made of numbers
     return np.array(
         [-1 if id is None else id for id in (system_id(sid, "Body") for sid in sids)], np.int64
     )
 
 
-def _off_center(members: Members, rows: Array, values: BodyValues, bodies: Array) -> Array:
+def _off_center(
+    members: Members, rows: Array, values: BodyValues, bodies: Array, world: World
+) -> Array:
     """Whether a single shape's centre is not the centre of mass that the body states."""
     frames = values.has_frame[bodies] & (members.kinds[rows] != Kind.PLANE)
     frames &= members.kinds[rows] != Kind.EMPTY
@@ -399,8 +424,10 @@ def _off_center(members: Members, rows: Array, values: BodyValues, bodies: Array
     if len(mine):
         member = rows[mine]
         centers = members.poses.positions[member]
-        size = np.maximum(np.abs(members.dimensions[member]).max(axis=1), np.abs(centers).max(axis=1))
-        size = np.maximum(size, members.body_reach[member])
+        size = np.maximum(
+            np.abs(members.dimensions[member]).max(axis=1), np.abs(centers).max(axis=1)
+        )
+        size = np.maximum(size, members.reach(member, world, centered=True))
         apart = values.frames.positions[bodies[mine]] - centers
         off[mine] = np.sqrt(np.sum(apart * apart, axis=1)) > 1e-6 * size
     return off

@@ -14,8 +14,8 @@ from colladaphy.mapper.loading.bodies import LoadedBodies
 from colladaphy.mapper.loading.parts import Parts
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy.world import BodyColumns, MemberColumns, World
-from colladaphy.world.creation import mass_and_inertia
 from colladaphy.world.kinds import Kind
+from colladaphy.world.masses import mass_and_inertia
 from colladaphy.world.unions import steiner, sums
 
 __all__ = ["assign_ids", "create_bodies", "free_ids"]
@@ -178,7 +178,7 @@ def _weigh(parts: Parts, world: World) -> None:
 
 def _endless(parts: Parts) -> Array:
     """Which parts are planes or hold one (n,)."""
-    endless = parts.kinds == Kind.PLANE
+    endless: Array = np.asarray(parts.kinds == Kind.PLANE)
     above = parts.parents[endless]
     while len(above := np.unique(above[above >= 0])):
         above = above[~endless[above]]

@@ -48,7 +48,14 @@ class Deciding:
         )
 
     def take(
-        self, what: str, bodies: Array, stated: Any, kept: Any, same: Array, *, instance: bool = False
+        self,
+        what: str,
+        bodies: Array,
+        stated: Any,
+        kept: Any,
+        same: Array,
+        *,
+        instance: bool = False,
     ) -> Array:
         """Where the profile's values are taken (n,); notes where they are older ones.
 
@@ -66,7 +73,9 @@ class Deciding:
         tables, found = self._tables, self._bodies
         if instance:
             row, home = int(found.rows[body]), int(found.homes[body])
-            name = tables.body_instances.texts("sid")[row] or tables.body_instances.texts("body")[row]
+            name = (
+                tables.body_instances.texts("sid")[row] or tables.body_instances.texts("body")[row]
+            )
             ordinal = int(tables.body_instances.ordinals[row])
         else:
             row, home = int(found.bodies[body]), int(found.body_homes[body])
@@ -94,7 +103,7 @@ class Deciding:
         return result
 
     def inertias(self, bodies: Array, stated: Array, kept: Array, has_kept: Array) -> Array:
-        """Inertias (n, 9), NaN where nobody says one: the profile's, unless the common are newer."""
+        """Inertias (n, 9), NaN where nobody says one: the profile's unless the common are newer."""
         result = stated.copy()
         has_stated = ~np.isnan(stated).all(axis=1)
         only = has_kept & ~has_stated
@@ -103,7 +112,7 @@ class Deciding:
         if len(both):
             mine = bodies[both]
             # COLLADA says the symmetric part, and of the largest numbers only that they are large.
-            same = ~np.isfinite(stated[both]).all(axis=1)
+            same = np.asarray(~np.isfinite(stated[both]).all(axis=1))
             left = np.flatnonzero(~same)
             symmetric = symmetric_parts(kept[both[left]])
             same[left] = self.sameness.whole(mine[left], stated[both[left]], symmetric)

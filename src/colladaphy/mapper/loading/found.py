@@ -23,13 +23,17 @@ Array = NDArray[Any]
 class FoundBodies:
     """Instances of rigid_bodies, one a row, in the order in which they are loaded."""
 
-    def __init__(self, tables: Tables, models: Array, rows: Array, bodies: Array, poses: Poses):
+    def __init__(
+        self, tables: Tables, models: Array, rows: Array, bodies: Array, nodes: Array, poses: Poses
+    ) -> None:
         self.models = models
         """(n,) the instance of the model that each belongs to."""
         self.rows = rows
         """(n,) rows of the instance_rigid_body elements."""
         self.bodies = bodies
         """(n,) rows of the rigid_body elements."""
+        self.nodes = nodes
+        """(n,) rows of the nodes that are their targets; -1 for none."""
         self.poses = poses
         """World poses of their nodes: of the frames of the rigid_bodies."""
         self.homes = tables.body_instances.homes(rows)
@@ -81,7 +85,7 @@ def find_bodies(tables: Tables, expansion: Expansion) -> FoundBodies:
     inner = keep[good]
     if not inner.all():
         poses = poses.take(inner)
-    return FoundBodies(tables, models[keep], rows[keep], found[keep], poses)
+    return FoundBodies(tables, models[keep], rows[keep], found[keep], nodes[inner], poses)
 
 
 def _chosen(texts: list[Any], rows: Array) -> list[Any]:

@@ -16,7 +16,7 @@ from colladaphy.errors import DocumentError, WorldError
 from colladaphy.links import rules as link_rules
 from colladaphy.links.addresses import split_reference
 from colladaphy.links.poses import DEGREE, Poses
-from colladaphy.links.steps import Steps, poses_of_steps
+from colladaphy.links.steps import poses_of
 from colladaphy.mapper import rules
 from colladaphy.mapper.loading.bodies import LoadedBodies
 from colladaphy.mapper.loading.creation import free_ids
@@ -29,12 +29,26 @@ from colladaphy.mapper.loading.tables import Tables
 from colladaphy.mapper.tokens import same_token, system_id
 from colladaphy.world import JointColumns, World
 
-__all__ = ["load_joints"]
+__all__ = ["LoadedJoints", "load_joints"]
 
 Array = NDArray[Any]
 
 _SIDES = ("ref_attachment", "attachment")
 _LARGEST = 1.7e308
+
+
+@dataclass(frozen=True, slots=True)
+class LoadedJoints:
+    """Joints, one a row, and the elements that they were made of."""
+
+    sids: Array
+    """(n,) system ids; a World that did not take the joint has none of that id."""
+    instances: Array
+    """(n,) rows of the instance_rigid_constraint elements."""
+    constraints: Array
+    """(n,) rows of the rigid_constraint elements."""
+    models: Array
+    """(n,) the instances of models that they stand in."""
 
 
 @dataclass(slots=True)
@@ -82,7 +96,7 @@ def _read(constraints: Any, home: int, start: int) -> _Constraints:
         origins[rows, side] = attachment.ordinals
         for row, reference in zip(rows.tolist(), attachment.rigid_body, strict=True):
             references[2 * row + side] = reference or ""
-        frames.put(2 * rows + side, poses_of_steps(Steps.of(attachment)))
+        frames.put(2 * rows + side, poses_of(attachment))
     common = constraints.technique_common
     enabled = _flag(common, common.enabled, count, True)
     interpenetrate = _flag(common, common.interpenetrate, count, False)
@@ -151,8 +165,10 @@ def _profile(constraints: Any, count: int) -> dict[str, Any]:
         frame = getattr(joints, attribute)
         if len(frame):
             at, turn = frame.position, frame.orientation
-            frames.put(2 * owner[frame.owner] + side, Poses.of(
-                len(frame), at.values, turn.values, moved=at.present, turned=turn.present))  # fmt: skip
+            poses = Poses.of(
+                len(frame), at.values, turn.values, moved=at.present, turned=turn.present
+            )
+            frames.put(2 * owner[frame.owner] + side, poses)
     made: dict[str, Any] = {
         "kept": kept, "uids": uids, "kept_sids": sids, "kept_names": names, "exact_frames": frames,
         "exact_springs": np.zeros((count, 2, 3)),
@@ -178,14 +194,14 @@ def _profile(constraints: Any, count: int) -> dict[str, Any]:
 def load_joints(
     tables: Tables, expansion: Expansion, loaded: LoadedBodies, created: Array, world: World,
     prefer: Prefer,
-) -> None:  # fmt: skip
+) -> LoadedJoints:  # fmt: skip
     """Create the joints of all constraints that are instanced; what cannot be one is noted."""
     instances = tables.constraint_instances
     rows, models = instances.below(tables.model_instances.keys(expansion.rows))
     if not len(rows):
-        return
-    sids = instances.texts("constraint")
-    names = [sids[row] for row in rows.tolist()]
+        return LoadedJoints(rows, rows, rows, models)
+    texts = instances.texts("constraint")
+    names = [texts[row] for row in rows.tolist()]
     found = named_below(tables.constraints, tables.models.keys(expansion.models)[models], names)
     for place in np.flatnonzero(found < 0).tolist():
         model = tables.models.texts("id")[int(expansion.models[models[place]])]
@@ -193,12 +209,15 @@ def load_joints(
         message = f"The model {model!r} has no rigid constraint {names[place]!r}."
         tables.resource.note(link_rules.MISSING, int(instances.ordinals[rows[place]]), message,
                              home=home)  # fmt: skip
-    good = found >= 0
+    good = np.flatnonzero(found >= 0)
     read = tables.constraints.gather(_read)
     ends = _Ends(tables, expansion, loaded, created, read)
-    kept, bodies, places = ends.attached(found[good], models[good])
+    attached, bodies, places = ends.attached(found[good], models[good])
+    kept = good[attached]
+    sids = kept
     if len(kept):
-        _Joints(tables, loaded, world, prefer, read, kept, bodies, places).create()
+        sids = _Joints(tables, loaded, world, prefer, read, found[kept], bodies, places).create()
+    return LoadedJoints(sids, rows[kept], found[kept], models[kept])
 
 
 class _Ends:
@@ -234,7 +253,7 @@ class _Ends:
         self._instance_sids = tables.model_instances.texts("sid")
 
     def attached(self, constraints: Array, models: Array) -> tuple[Array, Array, Poses]:
-        """The constraints whose ends are all there, their bodies (n, 2), -1 for the world.
+        """The numbers of those whose ends are all there, and their bodies (n, 2), -1 for the world.
 
         Of ends at nodes of the world the poses (2 n) of these are given.
         """
@@ -242,7 +261,8 @@ class _Ends:
         bodies: list[tuple[int, int]] = []
         nodes: list[tuple[int, int]] = []
         references = self._read.references
-        for row, model in zip(constraints.tolist(), models.tolist(), strict=True):
+        pairs = zip(constraints.tolist(), models.tolist(), strict=True)
+        for number, (row, model) in enumerate(pairs):
             ends: list[int] = []
             stands: list[int] = []
             try:
@@ -262,7 +282,7 @@ class _Ends:
                 message = f"The body {reference!r} was not loaded; the constraint is skipped."
                 self._tables.resource.note(rules.CONSTRAINT_SKIPPED, element, message, home=home)
                 continue
-            kept.append(row)
+            kept.append(number)
             bodies.append((ends[0], ends[1]))
             nodes.append((stands[0], stands[1]))
         flat = np.array(nodes, np.int64).reshape(-1)
@@ -279,6 +299,12 @@ class _Ends:
 
     def _end(self, row: int, side: int, model: int, reference: str) -> tuple[int, int]:
         """The body that an attachment means, -2 if it was not loaded; or -1 and a node."""
+        # As nearly all are written: the model, or nothing, and the sid of the body.
+        outer, slash, sid = reference.rpartition("/")
+        if outer == self._model_ids[model] or not slash:
+            quick = self._sids.get((self._model_keys[model], sid))
+            if quick is not None:
+                return self._only(self._by_model.get((model, quick), ()), row, side), -1
         file, head, sids = split_reference(reference)
         if not file:
             path = sids if head in (".", self._model_ids[model]) else [head, *sids]
@@ -372,8 +398,8 @@ class _Joints:
         home, element = self._place(row)
         return tolerance_of(home, element)
 
-    def create(self) -> None:
-        """Create them, in the order of their system ids."""
+    def create(self) -> Array:
+        """Create them, in the order of their system ids; returns these (n,)."""
         read, rows = self._read, self._rows
         linear, angular = read.linear[rows].copy(), read.angular[rows].copy()
         springs, has = read.springs[rows].copy(), read.has_spring[rows].copy()
@@ -397,6 +423,7 @@ class _Joints:
             names=[names[row] for row in order.tolist()],
         )
         self._extend(columns, order, 0, len(order))
+        return sids
 
     def _extend(self, columns: JointColumns, order: Array, begin: int, end: int) -> None:
         """Create a range of the joints, by halves where the World does not take all of it."""

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from colladaphy.errors import DocumentError
 from colladaphy.findings import Severity
@@ -14,12 +15,12 @@ from colladaphy.links.resource import Resource
 from colladaphy.mapper import rules
 from colladaphy.mapper.conversion import conversion, convert
 from colladaphy.mapper.joining import join
-from colladaphy.mapper.loading.bodies import load_bodies
+from colladaphy.mapper.loading.bodies import LoadedBodies, load_bodies
 from colladaphy.mapper.loading.creation import assign_ids, create_bodies
 from colladaphy.mapper.loading.deciding import Prefer
 from colladaphy.mapper.loading.found import find_bodies
-from colladaphy.mapper.loading.instances import expand
-from colladaphy.mapper.loading.joints import load_joints
+from colladaphy.mapper.loading.instances import Expansion, expand
+from colladaphy.mapper.loading.joints import LoadedJoints, load_joints
 from colladaphy.mapper.loading.materials import MaterialTable
 from colladaphy.mapper.loading.meshes import Geometries
 from colladaphy.mapper.loading.scenes import apply_scenes, read_scene
@@ -27,7 +28,7 @@ from colladaphy.mapper.loading.tables import Tables
 from colladaphy.world import World
 from colladaphy_schema.codec import paused_collector
 
-__all__ = ["Chosen", "load"]
+__all__ = ["Chosen", "Loaded", "load", "trace"]
 
 _log = logging.getLogger("colladaphy.mapper")
 
@@ -39,6 +40,21 @@ class Chosen:
     scenes: Sequence[tuple[Resource, int]]
     models: Sequence[tuple[Resource, int]]
     """The instance_physics_model elements, in the order in which they are loaded."""
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """A World, and where in the documents everything in it comes from."""
+
+    world: World
+    tables: Tables
+    expansion: Expansion
+    bodies: LoadedBodies
+    created: NDArray[np.bool_]
+    """(n,) which of the bodies the World took."""
+    joints: LoadedJoints
+    materials: MaterialTable
+    geometries: Geometries
 
 
 def load(
@@ -58,7 +74,7 @@ def load(
     before = len(resource.report)
     # Numbers too large for arithmetic are told from what becomes of them.
     with paused_collector(), np.errstate(all="ignore"):
-        fresh = _fresh(resource, chosen, prefer)
+        fresh = _loaded(resource, chosen, prefer).world
         change = conversion(resource, world, si=si, up_axis=up_axis)
         if change is not None:
             convert(fresh, change)
@@ -77,7 +93,16 @@ def load(
     return world
 
 
-def _fresh(resource: Resource, chosen: Chosen, prefer: Prefer) -> World:
+def trace(resource: Resource, chosen: Chosen, prefer: Prefer = "newer") -> Loaded:
+    """The World of a document in its own unit and axes, and where everything in it stands.
+
+    What is noticed is in the resource's report; nothing is refused.
+    """
+    with paused_collector(), np.errstate(all="ignore"):
+        return _loaded(resource, chosen, prefer)
+
+
+def _loaded(resource: Resource, chosen: Chosen, prefer: Prefer) -> Loaded:
     if not chosen.scenes:
         resource.note(rules.NO_SCENE)
     world = World(unit=resource.unit, up_axis=resource.up_axis)
@@ -85,11 +110,13 @@ def _fresh(resource: Resource, chosen: Chosen, prefer: Prefer) -> World:
     apply_scenes(scenes, world, resource, prefer)
     tables = Tables(resource)
     numbers = [tables.pool.number(home) for home, _ in chosen.models]
-    roots = [
-        tables.model_instances.row_of(number, ordinal)
-        for number, (_, ordinal) in zip(numbers, chosen.models, strict=True)
-    ]
-    expansion = expand(tables, np.array(roots, np.int64))
+    homes = np.array(numbers, np.int64)
+    ordinals = np.array([ordinal for _, ordinal in chosen.models], np.int64)
+    roots = np.full(len(homes), -1)
+    for home in np.unique(homes).tolist():
+        mine = homes == home
+        roots[mine] = tables.model_instances.rows_of(home, ordinals[mine])
+    expansion = expand(tables, roots)
     found = find_bodies(tables, expansion)
     _log.info("read %d bodies of %d models", len(found), len(roots))
     materials = MaterialTable(tables, world, prefer)
@@ -97,13 +124,13 @@ def _fresh(resource: Resource, chosen: Chosen, prefer: Prefer) -> World:
     loaded = load_bodies(tables, found, world, materials, geometries, prefer)
     assign_ids(loaded.parts)
     created = create_bodies(tables, loaded, world)
-    load_joints(tables, expansion, loaded, created, world, prefer)
+    joints = load_joints(tables, expansion, loaded, created, world, prefer)
     if prefer != "common":
         for scene in scenes:
             scene.apply_pairs(world, tables, materials)
             scene.restore_counters(world)
     _drop_unused_meshes(world)
-    return world
+    return Loaded(world, tables, expansion, loaded, created, joints, materials, geometries)
 
 
 def _drop_unused_meshes(world: World) -> None:

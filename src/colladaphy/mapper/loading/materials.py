@@ -229,9 +229,7 @@ class MaterialTable:
         home, element = self._place(row)
         return tolerance_of(home, element)
 
-    def _note_stale(
-        self, name: str, row: int, names: list[str], values: Array, raw: _Raw
-    ) -> None:
+    def _note_stale(self, name: str, row: int, names: list[str], values: Array, raw: _Raw) -> None:
         column = _COLUMN[name]
         home, element = self._place(row)
         message = (
@@ -316,7 +314,7 @@ class MaterialTable:
             ):
                 values = {name: records.values[rows, _COLUMN[name]] for name in VALUES}
                 materials.extend(names, values, wanted)
-                return wanted.tolist()
+                return [int(id) for id in wanted]
         return [
             self._id_of(row, density, home, origin, records)
             for row, density, home, origin in zip(
@@ -324,9 +322,7 @@ class MaterialTable:
             )
         ]
 
-    def _id_of(
-        self, row: int, density: float, home: int, origin: int, records: _Records
-    ) -> int:
+    def _id_of(self, row: int, density: float, home: int, origin: int, records: _Records) -> int:
         if row == UNSPECIFIED:
             if not self._noted_unspecified:
                 self._noted_unspecified = True

@@ -25,7 +25,7 @@ from colladaphy.mapper.loading.shapes import (
 )
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy.mapper.loading.values import BodyValues
-from colladaphy.world import Mesh
+from colladaphy.world import World
 from colladaphy.world.kinds import Kind
 from colladaphy.world.shapes import NEEDED, solid_volume
 
@@ -59,34 +59,27 @@ class Members:
     """(m,) rows of the materials that count, once `complete` has found them."""
     mesh_ids: Array
     """(m,) ids of meshes in the World; -1 for none."""
-    reach: Array
-    """(m,) the largest number among the vertices of a mesh, as they stand in the file; else 0."""
-    body_reach: Array
-    """(m,) the same about the centre of mass."""
     volumes: Array
 
     def __len__(self) -> int:
         return len(self.owner)
 
+    def reach(self, rows: Array, world: World, *, centered: bool) -> Array:
+        """The largest number among the vertices of meshes (n,), 0 for other shapes.
 
-class MeshSizes:
-    """What is asked of meshes again and again, once for each."""
-
-    def __init__(self) -> None:
-        self._known: dict[tuple[int, bool], tuple[float, float, Array]] = {}
-
-    def of(self, mesh: Mesh, hollow: bool) -> tuple[float, float, Array]:
-        """The reach in the file's frame and in the body's, and the centre of mass."""
-        key = (mesh.id, hollow)
-        known = self._known.get(key)
-        if known is None:
-            center = np.asarray(mesh.center_of(hollow))
-            known = self._known[key] = (
-                float(np.max(np.abs(mesh.vertices))),
-                float(np.max(np.abs(mesh.vertices - center))),
-                center,
-            )
-        return known
+        As they stand in the file, or about the centre of mass.
+        """
+        made = np.zeros(len(rows))
+        known: dict[tuple[int, bool], float] = {}
+        for place in np.flatnonzero(self.mesh_ids[rows] >= 0).tolist():
+            row = rows[place]
+            key = int(self.mesh_ids[row]), bool(self.hollow[row])
+            if key not in known:
+                mesh = world.meshes[key[0]]
+                points = mesh.vertices - mesh.center_of(key[1]) if centered else mesh.vertices
+                known[key] = float(np.max(np.abs(points)))
+            made[place] = known[key]
+        return made
 
 
 def read_members(
@@ -122,14 +115,14 @@ def read_members(
     placed, hollow, ordinals = taken(every.poses), taken(every.hollow), taken(every.ordinals)
     count = len(rows)
     mesh_ids = np.full(count, -1, np.int64)
-    reach, body_reach, volumes = np.zeros(count), np.zeros(count), np.zeros(count)
+    volumes = np.zeros(count)
     poses = placed
     problems: dict[int, ShapeFault] = {}
     is_mesh = np.flatnonzero(kinds == Kind.MESH)
     if len(is_mesh):
         kinds = kinds.copy()
         poses = _meshes(tables, every, rows, homes, ordinals, hollow, is_mesh, geometries, placed,
-                        mesh_ids, reach, body_reach, volumes, problems, kinds)  # fmt: skip
+                        mesh_ids, volumes, problems, kinds)  # fmt: skip
     for row in np.flatnonzero(faults != NONE).tolist():
         problems[row] = _fault(int(faults[row]), Kind(max(int(kinds[row]), 0)), dimensions[row])
     for kind in np.unique(kinds).tolist():
@@ -141,8 +134,8 @@ def read_members(
     density = np.where(taken(every.has_density), taken(every.density), np.nan)
     material = every.material if whole else every.material.take(rows)
     members = Members(owner, homes, ordinals, kinds, dimensions, poses, placed, hollow, mass,
-                      density, material, np.full(count, UNSPECIFIED), mesh_ids, reach,
-                      body_reach, volumes)  # fmt: skip
+                      density, material, np.full(count, UNSPECIFIED), mesh_ids,
+                      volumes)  # fmt: skip
     left = np.ones(count, np.bool_)
     left[list(problems)] = False
     if problems:
@@ -173,9 +166,7 @@ def _empty_bodies(
             left[row] = True
 
 
-def _note_frames(
-    tables: Tables, bodies: FoundBodies, members: Members, weightless: Array
-) -> None:
+def _note_frames(tables: Tables, bodies: FoundBodies, members: Members, weightless: Array) -> None:
     """Note the bodies that have neither shape nor mass."""
     count = np.bincount(members.owner[~weightless], minlength=len(bodies))
     noted: set[int] = set()
@@ -210,8 +201,6 @@ def _meshes(
     geometries: Geometries,
     placed: Poses,
     mesh_ids: Array,
-    reach: Array,
-    body_reach: Array,
     volumes: Array,
     problems: dict[int, ShapeFault],
     kinds: Array,
@@ -224,7 +213,6 @@ def _meshes(
     for at, error in errors.items():
         problems[int(places[at])] = ShapeFault(error.findings[0].message)
     good = np.flatnonzero(found >= 0)
-    sizes = MeshSizes()
     centers = np.zeros((len(places), 3))
     for at, mesh in zip(good.tolist(), geometries.meshes(found[good]), strict=True):
         place = int(places[at])
@@ -235,7 +223,7 @@ def _meshes(
             kinds[place] = Kind.EMPTY
             continue
         mesh_ids[place] = mesh.id
-        reach[place], body_reach[place], centers[at] = sizes.of(mesh, bool(hollow[place]))
+        centers[at] = mesh.center_of(bool(hollow[place]))
         volumes[place] = mesh.volume
     inner = Poses.of(len(places), centers, moved=np.any(centers != 0.0, axis=1))
     settled = placed.take(places).then(inner)

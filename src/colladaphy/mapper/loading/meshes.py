@@ -1,4 +1,4 @@
-"""Geometries of documents as meshes of a World, each read once (COLLADA 1.5 §mesh, §convex_mesh)."""
+"""Geometries as meshes of a World, each read once (COLLADA 1.5 §mesh, §convex_mesh)."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ class Geometries:
         ids = self._ids([row for row, *_ in made])
         with np.errstate(all="ignore"):
             try:
-                meshes = self._world.add_meshes([source for _, *source in made], ids)
+                meshes = self._world.add_meshes([source[1:] for source in made], ids)
             except (WorldError, OverflowError):
                 if len(made) > 1:
                     middle = len(made) // 2
@@ -175,7 +175,8 @@ class Geometries:
         name = self._tables.geometries.texts("id")[row]
         if row in path:
             return ShapeFault(f"The geometry {name!r} is a convex hull of itself.")
-        self._gather([row])
+        if row not in self._read:
+            self._gather([row])
         read = self._read[row]
         if read is None:
             return ShapeFault(f"The geometry {name!r} is not a mesh.")

@@ -111,7 +111,7 @@ class Motions:
     sleeping: Array
 
 
-def first_of(owners: Array, techniques: Any, name: str) -> tuple[Any, Array]:
+def first_of(owners: Any, techniques: Any, name: str) -> tuple[Any, Array]:
     """The first element of a name in the pe techniques of each owner, and the owner of each.
 
     `owners` are the rows that the techniques belong to.

@@ -26,7 +26,7 @@ Array = NDArray[Any]
 _FEWEST_DIGITS = 6
 _ALL_DIGITS = 15
 _STRICTEST = 0.5e-14
-_TINIEST = 2.3e-308
+_TINIEST = 1e-307
 # Radians beyond this have no degrees; the common profile says the largest number instead.
 _LARGEST = 2.9e306
 
@@ -66,9 +66,9 @@ class Sameness:
             self._known[row] = self._measure(row)
         return self._known[rows]
 
-    def _decided(self, rows: Array, same: Callable[[Array, Array], Array]) -> Array:
+    def _decided(self, rows: Array, same: Callable[[Array, Array], Any]) -> Array:
         """What holds by the strictest measure, or else by that of the record."""
-        found = same(np.full(len(rows), _STRICTEST), np.arange(len(rows)))
+        found: Array = same(np.full(len(rows), _STRICTEST), np.arange(len(rows)))
         unsure = np.flatnonzero(~found)
         if len(unsure):
             found[unsure] = same(self.tolerances(rows[unsure]), unsure)
@@ -112,12 +112,12 @@ def _same(one: Array, other: Array, tolerance: Array, scale: Array) -> Array:
     """Where numbers (n, m) are the same."""
     with np.errstate(all="ignore"):
         first, second = np.abs(one), np.abs(other)
-        same = (one == other) | ((one != one) & (other != other))
+        same: Array = np.asarray((one == other) | ((one != one) & (other != other)))
         if same.all():
-            return np.asarray(same)
+            return same
         same |= (np.minimum(first, second) > _LARGEST) & ((one > 0) == (other > 0))
         size = np.maximum(np.maximum(first, second), scale[:, None])
-        # The tiniest doubles have few bits, so that half of one can be as large as the whole.
+        # The tiniest doubles have few bits, and what is tiny in radians has fewer in degrees.
         close = (np.abs(one - other) <= tolerance[:, None] * size) | (size < _TINIEST)
         return np.asarray(same | (close & np.isfinite(one) & np.isfinite(other)))
 

@@ -38,10 +38,11 @@ class SceneValues:
         self.home = home
         self.ordinal = ordinal
         common = rows.technique_common
-        gravity, step = common.gravity, common.time_step
+        gravity, steps = common.gravity, common.time_step.value
         self.name = rows.name[0]
         self.gravity: Array = gravity.value[0] if len(gravity) else np.zeros(3)
-        self.time_step = float(step.value[0]) if len(step) else None
+        self.time_step = float(steps[0]) if steps is not None and len(steps) else None
+        assert common.ordinals is not None
         self._common = int(common.ordinals[0]) if len(common) else ordinal
         worlds, _ = first_of(rows, rows.technique, "world")
         self._profile = worlds if len(worlds) else None

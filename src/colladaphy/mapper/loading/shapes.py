@@ -18,7 +18,14 @@ from colladaphy.links.steps import Steps, poses_of_steps
 from colladaphy.world.kinds import Kind
 from colladaphy.world.shapes import NEEDED
 
-__all__ = ["MaterialRefs", "ShapeColumns", "material_refs", "move_planes", "read_shapes", "unit_planes"]
+__all__ = [
+    "MaterialRefs",
+    "ShapeColumns",
+    "material_refs",
+    "move_planes",
+    "read_shapes",
+    "unit_planes",
+]
 
 Array = NDArray[Any]
 

@@ -244,7 +244,8 @@ class _Unions:
         """How far the shapes of each body reach, roughly (n,)."""
         members, rows = self._members, self._rows
         sizes = np.abs(np.column_stack([
-            members.dimensions[rows], members.poses.positions[rows], members.reach[rows]
+            members.dimensions[rows], members.poses.positions[rows],
+            members.reach(rows, self._world, centered=False)
         ]))  # fmt: skip
         sizes[~np.isfinite(sizes)] = 0.0
         extents = np.zeros(len(self._bodies))
@@ -299,8 +300,8 @@ class _Unions:
         # What stands in the outermost union is told from its place.
         back = places.inverse()
         outermost = np.flatnonzero(around < 0)
-        parts.poses.put(outermost,
-                        back.take(self._owner[outermost]).then(parts.poses.take(outermost)))  # fmt: skip
+        whole = back.take(self._owner[outermost])
+        parts.poses.put(outermost, whole.then(parts.poses.take(outermost)))
         if inner is not None and len(unions):
             rows = np.flatnonzero(inner.around < 0)
             unions.poses.put(rows, back.take(inner.owner[rows]).then(unions.poses.take(rows)))
@@ -341,7 +342,7 @@ class _Inner:
     bodies: Array
     """The bodies whose trees are told, by their place among the compounds."""
     rows: Array
-    """(u,) rows of the profile's unions; one that stands for several bodies is there several times."""
+    """(u,) rows of the profile's unions; one that stands for several bodies is there for each."""
     owner: Array
     """(u,) the body of each, by its place among the compounds."""
     around: Array
@@ -442,4 +443,6 @@ class _Inner:
 
 
 def _pose_texts(poses: Poses) -> Callable[[int], str]:
-    return lambda row: f"{tuple(poses.positions[row].tolist())} {tuple(poses.orientations[row].tolist())}"
+    return lambda row: (
+        f"{tuple(poses.positions[row].tolist())} {tuple(poses.orientations[row].tolist())}"
+    )

@@ -32,7 +32,7 @@ Steps = list[tuple[Array, Array]]
 
 _EMPTY = int(Kind.EMPTY)
 NO_SHAPE = "NoShape"
-"""The id of the geometry that stands for no shape, as the schema asks for one: a hull of nothing."""
+"""The id of the geometry that stands for no shape where the schema asks for one."""
 _ONTO_X = np.array([0.0, 0.0, 1.0, -90.0])
 """Turns COLLADA's y axis of capsules and cylinders onto the World's x axis."""
 
