@@ -208,3 +208,49 @@ def test_a_steered_step_costs_about_a_free_one(engine: Engine, empty: Any) -> No
     steered = Simulation(world, engine, forces=lambda seen, _: seen.forces[:, 0].fill(1e-9))
     steered.run(5)
     assert spent(steered.run) < 10 * free + 1e-3
+
+
+def test_findings_are_told_before_the_engine_sets_up(
+    engine: Engine, empty: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told: list[Any] = []
+    before: list[int] = []
+    load = type(engine).load
+
+    def late(self: Any, *arguments: Any, **options: Any) -> None:
+        before.append(len(told))
+        load(self, *arguments, **options)
+
+    monkeypatch.setattr(type(engine), "load", late)
+    simulation = Simulation(ball(empty), engine, on_finding=told.append)
+    assert before == [len(told)] and told == list(simulation.report)
+    assert "engine-settings" in {finding.code for finding in told}
+
+
+@pytest.mark.parametrize("integrator", ["rk4", "implicitfast", "implicit", "euler"])
+@pytest.mark.parametrize("solver", ["newton", "cg"])
+def test_every_integrator_and_solver_swings_a_pendulum(integrator: str, solver: str) -> None:
+    world = World((0, 0, -9.81), time_step=1 / 480)
+    bob = world.create_sphere(1, (0.05, 0, -1), 0.1, "iron")
+    world.attach_hinge_joint(None, bob, anchor1=(0, 0, 0), axis=(0, 1, 0))
+    period = 2 * math.pi * math.sqrt((1 + 0.4 * 0.01) / 9.81)
+    engine = create_engine("mujoco", integrator=integrator, solver=solver)
+    Simulation(world, engine).run(round(5 * period * 480))
+    assert bob.position[0] == pytest.approx(0.05, rel=0.01)
+
+
+def test_substeps_are_steps(empty: Any) -> None:
+    """Four parts of a step are four shorter steps, in all of which a force acts."""
+    ends = []
+    for parts, dt in ((4, 1 / 60), (1, 1 / 240)):
+        world = empty((0, 0, -9.81), dt=dt, restitution=0.5)
+        world.create_plane(1, (0, 0, 1), 0, "ball")
+        body = world.create_sphere(2, (0, 0, 1), 0.5, "ball")
+        Simulation(world, create_engine("pymunk", substeps=parts)).run(round(1 / dt))
+        ends.append(body.position)
+    np.testing.assert_allclose(ends[0], ends[1], rtol=1e-12)
+    world = empty(dt=0.1)
+    body = world.create_sphere(2, (0, 0, 0), 0.5, "ball")
+    body.force = (10 * body.mass, 0, 0)
+    Simulation(world, create_engine("pymunk", substeps=4)).run(3)
+    assert body.linear_velocity[0] == pytest.approx(1.0)

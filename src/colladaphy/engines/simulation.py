@@ -25,7 +25,7 @@ from colladaphy.engines.rules import (
 from colladaphy.engines.selection import choose, create_engine
 from colladaphy.engines.state import recorded_options, unpack
 from colladaphy.errors import EngineError
-from colladaphy.findings import Report, Severity
+from colladaphy.findings import Finding, Report, Severity
 
 if TYPE_CHECKING:
     from colladaphy.engines.observers import Observer
@@ -48,7 +48,8 @@ class Simulation:
 
     `forces`, called as ``forces(world, time)`` before each step with the World up to date, sets
     forces and torques, which act during that step. `on_contact` gets a `ContactEvent` whenever two
-    bodies begin or cease to touch.
+    bodies begin or cease to touch. `on_finding` gets what is in `report` up to then before the
+    engine is set up, which can take long (``engine-setup``).
 
     Edits of the World between two runs are taken up by the next one. During a run `forces` and
     observers may change motion and forces, which the running engine takes up; anything else is
@@ -64,6 +65,7 @@ class Simulation:
         *,
         forces: Callable[[World, float], object] | None = None,
         on_contact: Callable[[ContactEvent], object] | None = None,
+        on_finding: Callable[[Finding], object] | None = None,
     ) -> None:
         self.world = world
         self._forces = forces
@@ -91,6 +93,9 @@ class Simulation:
         self._steerable = self.engine if isinstance(self.engine, Steerable) else None
         self._edits = Edits()
         self._last: ref[ContactCount] | None = None
+        if on_finding:
+            for finding in self.report:
+                on_finding(finding)
         self._load()
         self.report.extend(getattr(self.engine, "notices", ()))
 
@@ -104,6 +109,7 @@ class Simulation:
         *,
         forces: Callable[[World, float], object] | None = None,
         on_contact: Callable[[ContactEvent], object] | None = None,
+        on_finding: Callable[[Finding], object] | None = None,
     ) -> Self:
         """Go on from a checkpoint, or from the newest one that is whole in a folder.
 
@@ -120,7 +126,9 @@ class Simulation:
         state = world.engine_state
         if state is not None and engine in ("auto", state.engine):
             engine = _maker(state)
-        run = cls(world, engine, dt, seed, forces=forces, on_contact=on_contact)
+        run = cls(
+            world, engine, dt, seed, forces=forces, on_contact=on_contact, on_finding=on_finding
+        )
         run.report.findings[:0] = passed
         return run
 
