@@ -22,13 +22,13 @@ from colladaphy.links.steps import Transforms, matrix_of, own_transforms, produc
 from colladaphy_schema.rows import Rows
 from colladaphy_schema.scene_columns import InstanceNodeTypeRows, NodeTypeRows
 
-__all__ = ["Placement"]
+__all__ = ["OwnTransforms", "Placement"]
 
 Array = NDArray[Any]
 
 
 @dataclass(slots=True)
-class _Own:
+class OwnTransforms:
     """The nodes of the documents, by themselves."""
 
     poses: Poses
@@ -36,6 +36,10 @@ class _Own:
     """(n,) whether the transform is a matrix."""
     matrices: Array
     """(n, 4, 4) where it is one, in the order of the rows."""
+    mixed: Array
+    """(n,) whether it is more than a translation and then a rotation."""
+    sizes: Array
+    """(n,) the largest numbers of its translations."""
 
 
 class Placement:
@@ -94,6 +98,55 @@ class Placement:
             # A circle leads back to where it began.
             current[current == nodes] = -1
         return found
+
+    def own(self) -> OwnTransforms:
+        """The transforms of the nodes by themselves."""
+        return self.nodes.gather(_own)
+
+    def frames(self) -> tuple[Poses, Array, dict[int, Array]]:
+        """The frames of all nodes in the world: poses (n,), where they are matrices, and these.
+
+        Of nodes that stand in a circle nothing is said.
+        """
+        rows = np.arange(len(self.above()))
+        return self._composed(rows, self.above(), self.own(), len(rows))
+
+    def levels(self) -> list[Array]:
+        """The nodes that stand in none, those in them, and so on."""
+        above = self.above()
+        depth = self._depths(np.arange(len(above)), above)
+        order = np.argsort(depth, kind="stable")
+        order = order[depth[order] >= 0]
+        sizes = np.bincount(depth[order])
+        return np.split(order, np.cumsum(sizes)[:-1]) if len(order) else []
+
+    def shared(self) -> Array:
+        """Which nodes (n,) are instanced several times, or stand in one that is."""
+        above = self.above()
+        shared = np.zeros(len(above) + 1, np.bool_)
+        shared[[row for row in self._several if row < len(above)]] = True
+        for rows in self.levels():
+            shared[rows] |= shared[above[rows]]
+        return shared[:-1]
+
+    def reach(self) -> tuple[Array, Array]:
+        """Whose world position (n,) is a sum, and the sizes (n,) of the positions that are in it.
+
+        Those of the frames around a node, and those of its own steps where it has several.
+        """
+        own, above = self.own(), self.above()
+        mixed = own.mixed | (above >= 0)
+        sizes = np.where(own.mixed, own.sizes, 0.0)
+        if not np.any(above >= 0):
+            return mixed, sizes
+        poses, affine, matrices = self.frames()
+        places = np.abs(poses.positions).max(axis=1)
+        for row in np.flatnonzero(affine).tolist():
+            places[row] = np.abs(matrices[row][:3, 3]).max()
+        for rows in self.levels()[1:]:
+            outer = above[rows]
+            sizes[rows] = np.maximum(sizes[rows], np.maximum(sizes[outer], places[outer]))
+        return mixed, sizes
 
     # --- the nodes above
 
@@ -189,7 +242,7 @@ class Placement:
         return depth[found]
 
     def _composed(
-        self, needed: Array, above: Array, own: _Own, count: int
+        self, needed: Array, above: Array, own: OwnTransforms, count: int
     ) -> tuple[Poses, Array, dict[int, Array]]:
         """World transforms of the needed nodes, level by level."""
         world = Poses.none(count)
@@ -252,10 +305,23 @@ class Placement:
         self._resource.note(rules.SEVERAL_PLACES, element, message, home=home)
 
 
-def _own(nodes: Rows, home: int, start: int) -> _Own:
+def _own(nodes: Rows, home: int, start: int) -> OwnTransforms:
     transforms: Transforms = own_transforms(nodes)
     affine = np.zeros(len(nodes), np.bool_)
     rows = sorted(transforms.matrices)
     affine[rows] = True
     matrices = np.array([transforms.matrices[row] for row in rows]).reshape(-1, 4, 4)
-    return _Own(transforms.poses, affine, matrices)
+    mixed, sizes = affine.copy(), np.zeros(len(nodes))
+    if len(rows):
+        sizes[rows] = np.abs(matrices[:, :3, 3]).max(axis=1)
+    translate, rotate = nodes.translate, nodes.rotate
+    moves = np.bincount(translate.owner, minlength=len(nodes))
+    turns = np.bincount(rotate.owner, minlength=len(nodes))
+    mixed |= (moves > 1) | (turns > 1)
+    if len(translate):
+        np.maximum.at(sizes, translate.owner, np.abs(translate.value).max(axis=1))
+        both = np.flatnonzero((moves == 1) & (turns == 1))
+        first, second = np.zeros(len(nodes), np.int64), np.zeros(len(nodes), np.int64)
+        first[translate.owner], second[rotate.owner] = translate.ordinals, rotate.ordinals
+        mixed[both] |= first[both] > second[both]
+    return OwnTransforms(transforms.poses, affine, matrices, mixed, sizes)

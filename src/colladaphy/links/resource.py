@@ -112,7 +112,7 @@ class Resource:
         return self._shown is not None
 
     @property
-    def _columns_tree(self) -> etree._ElementTree:
+    def shown_tree(self) -> etree._ElementTree:
         """The tree whose elements are those of the columns."""
         assert self.columns is not None
         return self.tree if self._shown is None else self._shown
@@ -122,13 +122,13 @@ class Resource:
         if self._elements is None:
             self._asked += 1
             if self._asked <= 2:
-                return next(islice(self._columns_tree.iter(etree.Element), number, None))
-            self._elements = list(self._columns_tree.iter(etree.Element))
+                return next(islice(self.shown_tree.iter(etree.Element), number, None))
+            self._elements = list(self.shown_tree.iter(etree.Element))
         return self._elements[number]
 
     def number(self, element: etree._Element) -> int:
         """The number of an element of the tree."""
-        tree = self._columns_tree
+        tree = self.shown_tree
         if self._shown is not None:
             element = tree.find(self.tree.getelementpath(element)) or element
         for number, other in enumerate(tree.iter(etree.Element)):

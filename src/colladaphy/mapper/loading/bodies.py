@@ -78,8 +78,7 @@ def load_bodies(
         kept = np.flatnonzero(has_shape)
         places = np.cumsum(has_shape) - 1
         members.owner = places[members.owner]
-        found = FoundBodies(tables, found.models[kept], found.rows[kept], found.bodies[kept],
-                            found.nodes[kept], found.poses.take(kept))  # fmt: skip
+        found = found.take(tables, kept)
         values, instance_values = _taken(values, kept), _taken(instance_values, kept)
     loading = _Loading(
         tables, found, members, values, instance_values, world, materials, prefer
@@ -315,7 +314,7 @@ class _Loading:
         use = motions.there if self._prefer != "common" else np.zeros(len(found), np.bool_)
         solid = use.copy()
         solid[flat] = False
-        self._poses(poses, motions, np.flatnonzero(solid))
+        self._poses(poses, origin, motions, np.flatnonzero(solid))
         if len(flat):
             self._planes(loaded, poses, motions, flat)
         if len(tops) == len(parts) and bool(np.all(tops == np.arange(len(tops)))):
@@ -336,13 +335,25 @@ class _Loading:
             taken = self._deciding.take(name, rows, stated, exact[rows], same, instance=True)
             column[rows[taken]] = exact[rows[taken]]
 
-    def _poses(self, poses: Poses, motions: Motions, rows: Array) -> None:
-        """Exact positions and orientations of the profile, unless the nodes were moved."""
+    def _poses(self, poses: Poses, origin: Poses, motions: Motions, rows: Array) -> None:
+        """Exact positions and orientations of the profile, unless the nodes were moved.
+
+        A position that is a sum is compared as a whole, to the size of what was added up.
+        """
         deciding = self._deciding
         mine = rows[motions.has_position[rows]]
         if len(mine):
             stated, exact = poses.positions[mine], motions.position[mine]
             same = deciding.sameness.each(mine, stated, exact)
+            left = np.flatnonzero(~same)
+            if len(left):
+                is_sum, sizes = self._found.reach(self._tables)
+                is_sum |= ~origin.is_identity()
+                sizes = np.maximum(sizes, np.abs(origin.positions).max(axis=1))
+                left = left[is_sum[mine[left]]]
+                same[left] = deciding.sameness.whole(
+                    mine[left], stated[left], exact[left], sizes[mine[left]]
+                )
             taken = mine[deciding.take("position", mine, stated, exact, same, instance=True)]
             poses.positions[taken] = motions.position[taken]
             poses.moved[taken] = True

@@ -24,8 +24,10 @@ class FoundBodies:
     """Instances of rigid_bodies, one a row, in the order in which they are loaded."""
 
     def __init__(
-        self, tables: Tables, models: Array, rows: Array, bodies: Array, nodes: Array, poses: Poses
-    ) -> None:
+        self, tables: Tables, expansion: Expansion, models: Array, rows: Array, bodies: Array,
+        nodes: Array, poses: Poses,
+    ) -> None:  # fmt: skip
+        self._expansion = expansion
         self.models = models
         """(n,) the instance of the model that each belongs to."""
         self.rows = rows
@@ -41,6 +43,27 @@ class FoundBodies:
 
     def __len__(self) -> int:
         return len(self.rows)
+
+    def take(self, tables: Tables, rows: Array) -> FoundBodies:
+        """Some of them, in that order."""
+        return FoundBodies(tables, self._expansion, self.models[rows], self.rows[rows],
+                           self.bodies[rows], self.nodes[rows], self.poses.take(rows))  # fmt: skip
+
+    def reach(self, tables: Tables) -> tuple[Array, Array]:
+        """Whose position is a sum of others (n,), and the sizes (n,) of the largest of these."""
+        expansion = self._expansion
+        mixed, sizes = (np.append(column, 0) for column in tables.placement.reach())
+        chains = expansion.chains[self.models]
+        is_sum, largest = mixed[self.nodes].astype(np.bool_), sizes[self.nodes]
+        parents = expansion.parent_nodes
+        if len(parents):
+            outer, _ = tables.placement.poses(parents)
+            around = np.maximum(sizes[parents], np.abs(outer.positions).max(axis=1))
+            while np.any(chains >= 0):
+                is_sum |= chains >= 0
+                largest = np.maximum(largest, np.where(chains >= 0, around[chains], 0.0))
+                chains = np.where(chains >= 0, expansion.parent_chains[chains], -1)
+        return is_sum, largest
 
 
 def find_bodies(tables: Tables, expansion: Expansion) -> FoundBodies:
@@ -85,7 +108,9 @@ def find_bodies(tables: Tables, expansion: Expansion) -> FoundBodies:
     inner = keep[good]
     if not inner.all():
         poses = poses.take(inner)
-    return FoundBodies(tables, models[keep], rows[keep], found[keep], nodes[inner], poses)
+    return FoundBodies(
+        tables, expansion, models[keep], rows[keep], found[keep], nodes[inner], poses
+    )
 
 
 def _chosen(texts: list[Any], rows: Array) -> list[Any]:

@@ -45,15 +45,20 @@ class Expansion:
     def __len__(self) -> int:
         return len(self.rows)
 
-    def node_poses(self, tables: Tables, chains: Array, nodes: Array, poses: Poses) -> Poses:
+    def node_poses(
+        self, tables: Tables, chains: Array, nodes: Array, poses: Poses, outer: Poses | None = None
+    ) -> Poses:
         """Poses of nodes (-1: none) with those of the parents around them.
+
+        `outer` are the poses of the parent nodes, where they are not those of the documents.
 
         A parent is not applied where the node is below it in the scene, so that its own transform
         has the parent's already.
         """
         if not len(self.parent_nodes) or not np.any(chains >= 0):
             return poses
-        outer, _ = tables.placement.poses(self.parent_nodes)
+        if outer is None:
+            outer, _ = tables.placement.poses(self.parent_nodes)
         done = np.zeros(len(chains), np.bool_)
         while True:
             live = np.flatnonzero((chains >= 0) & ~done)

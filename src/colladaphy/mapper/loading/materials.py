@@ -350,6 +350,24 @@ class MaterialTable:
         id = None if wanted < 0 or wanted in materials else wanted
         return self._world.create_material(unique_name(name, materials), id=id, **values).id
 
+    def rows_of_ids(self) -> dict[int, int]:
+        """The first row of a physics_material by the id of the material that it became.
+
+        One that keeps its id whatever else is in the World comes before others.
+        """
+        records = self._all()
+        found: dict[int, int] = {}
+        order = sorted(self._used, key=lambda row: (records.wanted[row] < 0, row))
+        for row in order:
+            id = self.known_id(row)
+            if id is not None:
+                found.setdefault(id, row)
+        return found
+
+    def keeps_id(self, row: int, id: int) -> bool:
+        """Whether a physics_material says itself which id its material has."""
+        return bool(self._all().wanted[row] == id)
+
     def known_id(self, row: int) -> int | None:
         """The id of the World's material that a physics_material in use became."""
         if row not in self._used:

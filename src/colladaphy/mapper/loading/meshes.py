@@ -60,6 +60,14 @@ class Geometries:
             self._add(fresh)
         return [self._known[row] for row in listed]
 
+    def rows_of_meshes(self) -> dict[int, int]:
+        """The first row of a geometry by the id of the mesh that it became."""
+        found: dict[int, int] = {}
+        for row, mesh in self._known.items():
+            if isinstance(mesh, Mesh):
+                found.setdefault(mesh.id, row)
+        return found
+
     def _add(self, rows: list[int]) -> None:
         self._gather(rows)
         made: list[tuple[int, Array, Array, bool]] = []

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 from colladaphy.columns.writing import document_bytes
 from colladaphy.errors import SchemaError
 from colladaphy.mapper.storing.checking import faults_of, has_unique_ids
-from colladaphy.mapper.storing.document import columns_of
+from colladaphy.mapper.storing.document import columns_of, motion_columns, world_columns
 from colladaphy_schema.codec import paused_collector
 
 if TYPE_CHECKING:
     from colladaphy.mapper.options import WriteOptions
     from colladaphy.world import World
 
-__all__ = ["columns_of", "store"]
+__all__ = ["columns_of", "motion_columns", "store", "world_columns"]
 
 _log = logging.getLogger(__name__)
 

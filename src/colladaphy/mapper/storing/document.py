@@ -26,6 +26,7 @@ from colladaphy.mapper.storing.meshes import geometries_of
 from colladaphy.mapper.storing.rows import labelled, technique
 from colladaphy.mapper.storing.shapes import NO_SHAPE, shapes_of, tessellated
 from colladaphy.mapper.storing.tree import Tree
+from colladaphy.world.columns import BODY_FIELDS
 from colladaphy.world.kinds import Kind
 from colladaphy.world.masses import distinct
 from colladaphy_schema import document_columns as document
@@ -46,7 +47,7 @@ from colladaphy_schema.geometry_library_columns import LibraryGeometriesTypeRows
 if TYPE_CHECKING:
     from colladaphy.world import Mesh, World
 
-__all__ = ["columns_of"]
+__all__ = ["columns_of", "motion_columns", "world_columns"]
 
 Array = NDArray[Any]
 
@@ -87,6 +88,42 @@ def columns_of(world: World, options: WriteOptions | None = None) -> document.Co
     root.library_physics_scenes = physics.LibraryPhysicsScenesTypeRows(1)
     root.library_physics_scenes.physics_scene = scenes
     _add_scene(root, world)
+    return root
+
+
+def motion_columns(world: World, rows: Array, options: WriteOptions) -> document.ColladaRows:
+    """No more than the instance_rigid_body of some rows of the bodies, in their order."""
+    bodies = {name: getattr(world, name)[rows] for name in ("sids", *BODY_FIELDS)}
+    arrangement = Arrangement(bodies, None, [""], np.zeros(len(rows), np.int64))
+    effects = physics.InstancePhysicsModelTypeRows(1)
+    effects.url = ["#Model1"]
+    effects.instance_rigid_body = instances_of(
+        arrangement, labelled("Body", bodies["sids"]), options
+    )
+    scenes = physics.PhysicsSceneTypeRows(1)
+    scenes.instance_physics_model = effects
+    scenes.technique_common = physics.PhysicsSceneTypeTechniqueCommonRows(1)
+    return _with_scenes(world, scenes, options)
+
+
+def world_columns(world: World, options: WriteOptions) -> document.ColladaRows:
+    """No more than what a physics scene says itself: gravity, time step and the pe profile."""
+    scenes = physics.PhysicsSceneTypeRows(1)
+    scenes.name = [world.name]
+    scenes.technique_common = _scene_values(world)
+    materials = np.union1d(world.material_ids, world.member_columns.material_ids)
+    scenes.technique = _world_profile(world, _used(materials), options)
+    return _with_scenes(world, scenes, options)
+
+
+def _with_scenes(
+    world: World, scenes: physics.PhysicsSceneTypeRows, options: WriteOptions
+) -> document.ColladaRows:
+    root = document.ColladaRows(1)
+    root.version = ["1.5.0"]
+    root.asset = _asset(world, options)
+    root.library_physics_scenes = physics.LibraryPhysicsScenesTypeRows(1)
+    root.library_physics_scenes.physics_scene = scenes
     return root
 
 
@@ -161,13 +198,18 @@ def _physics_scene(
     effects.instance_rigid_body = instances_of(arrangement, labels, options)
     effects.instance_rigid_constraint = constraint_instances(joints)
     rows.instance_physics_model = effects
-    rows.technique_common = common = physics.PhysicsSceneTypeTechniqueCommonRows(1)
+    rows.technique_common = _scene_values(world)
+    return rows
+
+
+def _scene_values(world: World) -> physics.PhysicsSceneTypeTechniqueCommonRows:
+    common = physics.PhysicsSceneTypeTechniqueCommonRows(1)
     common.gravity = gravity = TargetableFloat3TypeRows(1)
     gravity.value = world.gravity[None]
     if world.time_step is not None:
         common.time_step = step = TargetableFloatTypeRows(1)
         step.value = np.array([world.time_step])
-    return rows
+    return common
 
 
 def _world_profile(world: World, materials: Array, options: WriteOptions) -> TechniqueTypeRows:
