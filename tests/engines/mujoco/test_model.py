@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from time import perf_counter
 from typing import Any
 
 import mujoco
@@ -12,10 +13,11 @@ from hypothesis import strategies as st
 from tests.engines.scenes import SCENES
 
 from colladaphy.engines import Simulation, create_engine
+from colladaphy.engines.mujoco_engine.convexity import is_convex
 from colladaphy.engines.mujoco_engine.inertia import principal
 from colladaphy.engines.mujoco_engine.refusals import check
 from colladaphy.errors import EngineError
-from colladaphy.world import BodyColumns, Kind, World, rotations
+from colladaphy.world import BodyColumns, Kind, Mesh, World, rotations
 
 CUBE = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 QUADS = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
@@ -280,3 +282,51 @@ def test_contacts_beyond_memory_are_an_error_not_a_loss(monkeypatch: pytest.Monk
     with pytest.raises(EngineError, match="engine-library"):
         Simulation(world, "mujoco").run(3)
     np.testing.assert_array_equal(world.positions, before)
+
+
+def ball_mesh(count: int, dent: float = 0.0) -> tuple[Any, Any]:
+    """A sphere of `count` rings, dented at one vertex."""
+    around = 2 * count
+    angles = np.linspace(0, np.pi, count + 1)[1:-1]
+    turns = np.linspace(0, 2 * np.pi, around, endpoint=False)
+    rings = np.stack([
+        np.outer(np.sin(angles), np.cos(turns)), np.outer(np.sin(angles), np.sin(turns)),
+        np.repeat(np.cos(angles)[:, None], around, axis=1),
+    ], axis=-1)  # fmt: skip
+    rings[count // 2, 0] *= 1.0 - dent
+    points = np.concatenate([rings.reshape(-1, 3), [(0, 0, 1), (0, 0, -1)]])
+    number = np.arange((count - 1) * around).reshape(count - 1, around)
+    beside = np.roll(number, -1, axis=1)
+    faces = [
+        np.stack([number[:-1], number[1:], beside[1:]], axis=-1).reshape(-1, 3),
+        np.stack([number[:-1], beside[1:], beside[:-1]], axis=-1).reshape(-1, 3),
+        np.stack([np.full(around, len(points) - 2), number[0], beside[0]], axis=-1),
+        np.stack([np.full(around, len(points) - 1), beside[-1], number[-1]], axis=-1),
+    ]
+    return points, np.concatenate(faces)
+
+
+@pytest.mark.parametrize("count", [20, 120])
+@pytest.mark.parametrize("inside_out", [False, True])
+def test_convexity_of_small_and_large_meshes(count: int, inside_out: bool) -> None:
+    for dent, convex in ((0.0, True), (0.05, False)):
+        points, faces = ball_mesh(count, dent)
+        mesh = Mesh(points, faces[:, ::-1] if inside_out else faces)
+        start = perf_counter()
+        assert is_convex(mesh) is convex
+        assert perf_counter() - start < 2.0  # 29,000 vertices took half a minute
+
+
+def test_a_scene_is_looked_through_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    from colladaphy.engines.mujoco_engine import refusals
+
+    looked: list[int] = []
+    look = refusals._shapes
+    monkeypatch.setattr(refusals, "_shapes", lambda world: looked.append(1) or look(world))
+    world = SCENES["general"]()
+    simulation = Simulation(world, "mujoco")
+    simulation.run(2)
+    assert len(looked) == 1
+    world.masses[3] *= 2
+    simulation.run(2)
+    assert len(looked) == 2

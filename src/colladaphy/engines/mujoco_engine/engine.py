@@ -53,6 +53,7 @@ class MujocoEngine:
         self._options = MujocoOptions.of(options)
         self.notices: list[Finding] = []
         """What was found at the last load."""
+        self._checked: tuple[tuple[str, bool], list[Finding]] | None = None  # the last check
         self._key = ""
         self._model: Model | None = None
         self._motion: Motion | None = None
@@ -77,7 +78,10 @@ class MujocoEngine:
     def check(self, world: World) -> list[Finding]:
         """See `Engine.check`."""
         fresh = unpack(world, self.name, self.version, self.options).data is None
-        return refusals.check(world, self._options, fresh=fresh)
+        key = digest(world), fresh
+        if self._checked is None or self._checked[0] != key:
+            self._checked = key, refusals.check(world, self._options, fresh=fresh)
+        return list(self._checked[1])
 
     def load(self, world: World, *, seed: int | None = None) -> None:
         """See `Engine.load`. The compiled model is kept while only the motion changes."""

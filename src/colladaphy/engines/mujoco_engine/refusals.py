@@ -9,11 +9,12 @@ import mujoco
 import numpy as np
 
 from colladaphy.engines.jointed import crossed, fastest, joint_findings
+from colladaphy.engines.mujoco_engine.convexity import is_convex
 from colladaphy.engines.mujoco_engine.forest import plan
 from colladaphy.engines.mujoco_engine.inertia import SLACK
 from colladaphy.engines.mujoco_engine.loops import can_close
 from colladaphy.engines.mujoco_engine.settings import MujocoOptions, resolve
-from colladaphy.engines.mujoco_engine.shapes import is_convex, is_round, shapes_of
+from colladaphy.engines.mujoco_engine.shapes import is_round, shapes_of
 from colladaphy.engines.rules import (
     INERTIA_TRIANGLE,
     JOINT_APPROXIMATED,

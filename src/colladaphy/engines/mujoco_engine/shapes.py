@@ -14,16 +14,15 @@ from colladaphy.engines.frames import ORIGIN, Pose
 from colladaphy.world import Kind, rotations
 
 if TYPE_CHECKING:
-    from colladaphy.world import Mesh, World
+    from colladaphy.world import World
 
-__all__ = ["Shape", "Shapes", "is_convex", "is_round", "shapes_of"]
+__all__ = ["Shape", "Shapes", "is_round", "shapes_of"]
 
 Floats = NDArray[np.float64]
 Row = NDArray[Any]
 
 _SEGMENTS: Final = 32
 _TURN_TO_X: Final = rotations.from_axis_angle((0.0, 1.0, 0.0), np.pi / 2)  # z onto x
-_SLACK: Final = 1e-6  # of a mesh's size, by which a convex one may be dented
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,26 +70,6 @@ def is_round(shape: Shape) -> bool:
     if shape.kind is Kind.CAPSULE:
         return bool(x == y == z)
     return shape.kind is not Kind.CYLINDER or bool(y == z)
-
-
-def is_convex(mesh: Mesh) -> bool:
-    """True if no vertex lies outside the plane of a face."""
-    points, faces = mesh.body_vertices, mesh.faces
-    size = float(np.abs(points).max())
-    corners = points[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1)
-    good = lengths > 1e-12 * size * size
-    normals = normals[good] / lengths[good, None]
-    anchors = np.einsum("fi,fi->f", normals, corners[good, 0])
-    if float(np.median(anchors)) < 0:  # wound inside out
-        normals, anchors = -normals, -anchors
-    for start in range(0, len(normals), 256):
-        stop = start + 256
-        heights = points @ normals[start:stop].T - anchors[start:stop]
-        if np.any(heights > _SLACK * size):
-            return False
-    return True
 
 
 class Shapes:

@@ -10,6 +10,7 @@ import pymunk
 
 from colladaphy.engines.bounds import Bounds
 from colladaphy.engines.clock import Clock
+from colladaphy.engines.digest import digest
 from colladaphy.engines.jointed import fastest, joint_findings
 from colladaphy.engines.options import Value
 from colladaphy.engines.outlines import HalfPlane
@@ -54,6 +55,7 @@ class PymunkEngine:
 
     def __init__(self, **options: Any) -> None:
         self._options = PymunkOptions.of(options)
+        self._checked: tuple[Any, tuple[Planarity, list[Link], list[Finding]]] | None = None
         self.notices: list[Finding] = []
         """What was found at the last load."""
         self._model: Model | None = None
@@ -79,7 +81,7 @@ class PymunkEngine:
 
     def check(self, world: World) -> list[Finding]:
         """See `Engine.check`."""
-        return self._check(world)[2]
+        return list(self._check(world)[2])
 
     def load(self, world: World, *, seed: int | None = None) -> None:
         """See `Engine.load`."""
@@ -181,6 +183,12 @@ class PymunkEngine:
 
     def _check(self, world: World) -> tuple[Planarity, list[Link], list[Finding]]:
         """The plane of a World, its joints there, and everything to be said about both."""
+        key = digest(world), self._is_fresh(world)
+        if self._checked is None or self._checked[0] != key:
+            self._checked = key, self._look(world)
+        return self._checked[1]
+
+    def _look(self, world: World) -> tuple[Planarity, list[Link], list[Finding]]:
         planarity = analyse(world)
         findings = list(planarity.findings)
         links: list[Link] = []
