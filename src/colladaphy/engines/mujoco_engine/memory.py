@@ -28,12 +28,19 @@ _DIGITS: Final = 12  # of an integer in a list, with its comma, at most
 _FRAME: Final = 1000  # all else of the list
 
 
+def _names(model: Any) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """The arrays and counts that matter beside MuJoCo's state: none where nothing sleeps."""
+    sleeps = model.opt.enableflags & int(mujoco.mjtEnableBit.mjENBL_SLEEP)
+    return (_ARRAYS, _COUNTS) if sleeps else ((), ())
+
+
 def remember(model: Any, data: Any) -> bytes:
     """The state of `data`: a line of JSON and all floats bit by bit, compressed."""
     state = np.empty(mujoco.mj_stateSize(model, _STATE))
     mujoco.mj_getState(model, data, state, _STATE)
-    record = {name: getattr(data, name).tolist() for name in _ARRAYS}
-    record |= {name: int(getattr(data, name)) for name in _COUNTS}
+    arrays, counts = _names(model)
+    record = {name: getattr(data, name).tolist() for name in arrays}
+    record |= {name: int(getattr(data, name)) for name in counts}
     head = json.dumps(record, separators=(",", ":")).encode("ascii")
     return zlib.compress(head + b"\n" + state.astype("<f8").tobytes(), 1)
 
@@ -41,14 +48,15 @@ def remember(model: Any, data: Any) -> bytes:
 def recall(model: Any, data: Any, content: bytes) -> bool:
     """Set fresh `data` to a state; False, with nothing set, if it cannot be one of `model`."""
     size = mujoco.mj_stateSize(model, _STATE)
-    most = 8 * size + _FRAME + _DIGITS * sum(getattr(data, name).size for name in _ARRAYS)
+    names, count_names = _names(model)
+    most = 8 * size + _FRAME + _DIGITS * sum(getattr(data, name).size for name in names)
     try:
         plain = zlib.decompressobj().decompress(content, most)
         head, _, floats = plain.partition(b"\n")
         record = json.loads(head)
         state = np.frombuffer(floats, dtype="<f8").astype(np.float64)
-        arrays = {name: np.array(record[name], dtype=np.int32) for name in _ARRAYS}
-        counts = {name: int(record[name]) for name in _COUNTS}
+        arrays = {name: np.array(record[name], dtype=np.int32) for name in names}
+        counts = {name: int(record[name]) for name in count_names}
     except (zlib.error, ValueError, KeyError, TypeError, OverflowError):
         return False
     if len(state) != size or not _fits(model, data, arrays, counts):
@@ -58,10 +66,10 @@ def recall(model: Any, data: Any, content: bytes) -> bool:
     # computed again; then the state anew, exactly.
     mujoco.mj_forward(model, data)
     mujoco.mj_setState(model, data, state, _STATE)
-    for name in _ARRAYS:
-        getattr(data, name)[:] = arrays[name]
-    for name in _COUNTS:
-        setattr(data, name, counts[name])
+    for name, array in arrays.items():
+        getattr(data, name)[:] = array
+    for name, count in counts.items():
+        setattr(data, name, count)
     return True
 
 
@@ -69,7 +77,9 @@ def _fits(
     model: Any, data: Any, arrays: dict[str, NDArray[np.int32]], counts: dict[str, int]
 ) -> bool:
     """True if MuJoCo can follow the indices: a file can hold anything, and C checks nothing."""
-    if any(arrays[name].shape != getattr(data, name).shape for name in _ARRAYS):
+    if not arrays:
+        return True
+    if any(array.shape != getattr(data, name).shape for name, array in arrays.items()):
         return False
     bodies, dofs, trees = int(model.nbody), int(model.nv), int(model.ntree)
     asleep = arrays["tree_asleep"]
