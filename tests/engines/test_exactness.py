@@ -8,6 +8,7 @@ import subprocess
 import sys
 import zlib
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -15,7 +16,7 @@ from hypothesis import strategies as st
 from tests.engines.scenes import PLANAR, SCENES
 
 from colladaphy.engines import ENGINES, Engine, Simulation, create_engine, digest
-from colladaphy.world import compare
+from colladaphy.world import World, compare
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -163,3 +164,30 @@ def test_indices_that_lead_out_of_bounds_are_refused(scene: str) -> None:
     ring = [0 if tree >= 0 else tree for tree in record["tree_asleep"]]
     line = json.dumps({**record, "tree_asleep": ring}).encode()
     assert not memory.recall(compiled, data, zlib.compress(line + b"\n" + floats))
+
+
+@pytest.mark.parametrize("options", [{}, {"sleep": True}, {"integrator": "rk4"}])
+def test_a_heap_of_many_materials_resumes_exactly(options: dict[str, Any], tmp_path: Path) -> None:
+    """Large scenes are solved by another method, and set frictions in every step."""
+    world = World((0, 0, -9.81), time_step=1 / 240)
+    for i in range(3):
+        world.create_material(
+            f"m{i}", density=1000, restitution=0.2 * i, static_friction=0.1 + 0.1 * i,
+            dynamic_friction=0.1 + 0.1 * i, poisson_ratio=0.3, young_modulus=1, stiffness=1,
+            damping_normal=0, damping_tangential=0,
+        )  # fmt: skip
+    world.create_plane(1, (0, 0, 1), 0, "m2")
+    for i in range(60):
+        place = (1.01 * (i % 4), 1.01 * (i // 4 % 4), 0.6 + 1.02 * (i // 16))
+        world.create_sphere(2, place, 0.5, f"m{i % 3}", linear_velocity=(0.1 * (i % 3), 0, 0))
+    going = Simulation(world, create_engine("mujoco", **options))
+    assert any("Solver cg" in finding.message for finding in going.report)
+    for at in (7, 60):
+        going.run(at)
+        file = going.checkpoint(tmp_path / f"{at}.dae")
+        resumed = Simulation.resume(file)
+        for _ in range(2):
+            going.run(40)
+            resumed.run(40)
+            assert compare(going.world, resumed.world) == []
+    assert len(going.contacts()) > 50
