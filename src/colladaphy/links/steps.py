@@ -15,7 +15,17 @@ from numpy.typing import NDArray
 from colladaphy.links.affine import lookat_matrix, skew_matrix
 from colladaphy.links.poses import Poses, quaternions_of_turns
 
-__all__ = ["Steps", "Transforms", "matrix_of", "own_transforms", "poses_of", "poses_of_steps", "product", "rigid_parts"]
+__all__ = [
+    "Steps",
+    "Transforms",
+    "matrix_of",
+    "own_transforms",
+    "poses_of",
+    "poses_of_steps",
+    "product",
+    "rigid_parts",
+    "step_matrix",
+]
 
 Array = NDArray[Any]
 
@@ -142,14 +152,15 @@ def own_transforms(nodes: Any) -> Transforms:
     for row, found in entries.items():
         made = None
         for _, name, value in sorted(found, key=lambda entry: entry[0]):
-            step = _step_matrix(name, value)
+            step = step_matrix(name, value)
             made = step if made is None else product(made, step)
         assert made is not None
         matrices[row] = made
     return Transforms(poses, matrices)
 
 
-def _step_matrix(name: str, value: Array) -> Array:
+def step_matrix(name: str, value: Array) -> Array:
+    """The 4x4 matrix of one transform, by the name of its element."""
     made = np.eye(4)
     match name:
         case "matrix":
@@ -203,7 +214,9 @@ def rigid_parts(matrices: Array) -> tuple[Poses, Array]:
         x = _units(columns[0])
         a, b, c = (x * columns[1]).T
         y = _units(columns[1] - (a + b + c)[:, None] * x)
-        z = np.column_stack([x[:, i] * y[:, j] - x[:, j] * y[:, i] for i, j in ((1, 2), (2, 0), (0, 1))])
+        z = np.column_stack(
+            [x[:, i] * y[:, j] - x[:, j] * y[:, i] for i, j in ((1, 2), (2, 0), (0, 1))]
+        )
         made = np.stack([x, y, z], axis=2)
         exact = np.all(np.abs(matrices[:, :3, :3] - made) <= 2e-6, axis=(1, 2))
     orientations = _quaternions(made)

@@ -79,6 +79,75 @@ CONSTRAINT_FAULTY = Rule(
     "A constraint binds two different bodies, or a body and the world, within limits min to max.",
     "thesis 4.5",
 )
+KINEMATICS_UNUSED = Rule(
+    "kinematics-not-instanced",
+    _INFO,
+    "The document has kinematics models, but its scene instances none: they make no joints.",
+    "Add an <instance_kinematics_scene> to <scene>.",
+    "COLLADA 1.5 §instance_kinematics_scene",
+)
+KINEMATICS_LOST = Rule(
+    "kinematics-reference",
+    _WARNING,
+    "A reference in the kinematics leads nowhere, and is not followed.",
+    "Correct the path: the sids lead from instances to what they are of.",
+    "COLLADA 1.5 §Address syntax",
+)
+ROBOT_EMPTY = Rule(
+    "kinematics-no-bodies",
+    _INFO,
+    "None of the links of a kinematics model is a body that is loaded, so it makes no joints.",
+    "Bind links and rigid bodies to the same nodes, or give them the same names.",
+    "COLLADA 1.5 §bind_kinematics_model",
+)
+LINK_IN_WORLD = Rule(
+    "kinematics-link-in-world",
+    _INFO,
+    "The outermost link of a robot has neither shape nor mass: the world holds what hangs on it.",
+    "Give the link a mass and an inertia, if the robot is to move about.",
+)
+LINK_UNCLEAR = Rule(
+    "kinematics-link-unclear",
+    _WARNING,
+    "Several bodies have the name of a link, so which of them it is cannot be told.",
+    "Bind the link to the node of its body with <bind_joint_axis>.",
+    "COLLADA 1.5 §bind_joint_axis",
+)
+JOINT_EMPTY = Rule(
+    "kinematics-joint-empty",
+    _INFO,
+    "A joint fixes a link that has no body, so there is nothing to bind.",
+    None,
+    "COLLADA 1.5 §attachment_full",
+)
+JOINT_UNMAPPED = Rule(
+    "kinematics-joint-skipped",
+    _WARNING,
+    "A kinematic joint cannot be a joint of a World, and is skipped.",
+    "A World's joints bind two bodies and have axes at right angles.",
+    "COLLADA 1.5 §joint",
+)
+JOINT_FOLLOWS = Rule(
+    "kinematics-joint-follows",
+    _WARNING,
+    "Formulas make axes follow other axes, which a World cannot express.",
+    "The axes move freely within their limits.",
+    "COLLADA 1.5 §formula",
+)
+JOINT_DOUBLED = Rule(
+    "kinematics-joint-doubled",
+    _INFO,
+    "A kinematic joint binds two bodies that a rigid_constraint binds; the latter counts.",
+    None,
+    "COLLADA 1.5 §rigid_constraint",
+)
+JOINT_FRAMES = Rule(
+    "kinematics-joint-frames",
+    _WARNING,
+    "The nodes put a joint elsewhere than the kinematics model does; the nodes count.",
+    "Write both from the same values.",
+    "COLLADA 1.5 §bind_joint_axis",
+)
 DENSITY_ASSUMED = Rule(
     "load-density-assumed",
     _INFO,
@@ -153,6 +222,16 @@ RULES = (
     BODY_TWICE,
     CONSTRAINT_SKIPPED,
     CONSTRAINT_FAULTY,
+    KINEMATICS_UNUSED,
+    KINEMATICS_LOST,
+    ROBOT_EMPTY,
+    LINK_IN_WORLD,
+    LINK_UNCLEAR,
+    JOINT_EMPTY,
+    JOINT_UNMAPPED,
+    JOINT_FOLLOWS,
+    JOINT_DOUBLED,
+    JOINT_FRAMES,
     DENSITY_ASSUMED,
     MATERIAL_ASSUMED,
     MATERIAL_BAD,

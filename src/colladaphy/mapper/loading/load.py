@@ -21,6 +21,7 @@ from colladaphy.mapper.loading.deciding import Prefer
 from colladaphy.mapper.loading.found import find_bodies
 from colladaphy.mapper.loading.instances import Expansion, expand
 from colladaphy.mapper.loading.joints import LoadedJoints, load_joints
+from colladaphy.mapper.loading.kinematics.joints import load_kinematics
 from colladaphy.mapper.loading.materials import MaterialTable
 from colladaphy.mapper.loading.meshes import Geometries
 from colladaphy.mapper.loading.scenes import apply_scenes, read_scene
@@ -53,6 +54,8 @@ class Loaded:
     created: NDArray[np.bool_]
     """(n,) which of the bodies the World took."""
     joints: LoadedJoints
+    driven: NDArray[np.int64]
+    """System ids of the joints that the kinematics have, and no rigid_constraint."""
     materials: MaterialTable
     geometries: Geometries
 
@@ -125,12 +128,13 @@ def _loaded(resource: Resource, chosen: Chosen, prefer: Prefer) -> Loaded:
     assign_ids(loaded.parts)
     created = create_bodies(tables, loaded, world)
     joints = load_joints(tables, expansion, loaded, created, world, prefer)
+    driven = load_kinematics(tables, found, loaded, created, world)
     if prefer != "common":
         for scene in scenes:
             scene.apply_pairs(world, tables, materials)
             scene.restore_counters(world)
     _drop_unused_meshes(world)
-    return Loaded(world, tables, expansion, loaded, created, joints, materials, geometries)
+    return Loaded(world, tables, expansion, loaded, created, joints, driven, materials, geometries)
 
 
 def _drop_unused_meshes(world: World) -> None:

@@ -1,0 +1,1 @@
+"""Kinematics of documents as joints of a World (COLLADA 1.5 part 2, §kinematics)."""

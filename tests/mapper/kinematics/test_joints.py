@@ -1,0 +1,229 @@
+"""Kinematic joints as joints of a World, against frames that are computed on their own."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.mapper.kinematics.robots import Arm, Segment, document, pose_matrix
+
+import colladaphy
+from colladaphy.world import JointKind, World, rotations
+
+_lengths = st.floats(-2, 2).map(lambda value: round(value, 3))
+_points = st.tuples(_lengths, _lengths, _lengths)
+_directions = st.tuples(*[st.floats(-1, 1)] * 3).filter(lambda v: max(map(abs, v)) > 0.1)
+_segments = st.builds(
+    Segment,
+    at=_points,
+    turn=st.tuples(*[st.floats(-1, 1)] * 3, st.floats(-180, 180)).filter(
+        lambda turn: max(map(abs, turn[:3])) > 0.1
+    ),
+    kind=st.sampled_from(["revolute", "prismatic"]),
+    axis=_directions,
+    value=st.floats(-3, 3) | st.just(0.0),
+    limits=st.none() | st.tuples(st.floats(-200, -5), st.floats(5, 200)),
+    shown_at=_points,
+)
+_arms = st.builds(
+    Arm, segments=st.lists(_segments, min_size=1, max_size=4), base_at=_points, bound=st.booleans()
+)
+
+
+def load(arm: Arm, **options: Any) -> tuple[World, list[str]]:
+    """The World of an arm, and the codes of what is noted of its kinematics."""
+    read = colladaphy.read(document(arm, **options))
+    world = read.load()
+    return world, [f.code for f in read.report.findings if f.code.startswith("kinematics")]
+
+
+def frames_of(world: World, number: int) -> list[np.ndarray[Any, Any]]:
+    """The two frames of a joint in the world (4, 4)."""
+    joint = world.joints[number]
+    made = []
+    for body, (point, turn) in (
+        (joint.body1, joint.frame1),
+        (joint.body2, joint.frame2),
+    ):
+        outer = np.eye(4)
+        if body is not None:
+            outer[:3, :3], outer[:3, 3] = rotations.to_matrix(body.orientation), body.position
+        inner = np.eye(4)
+        inner[:3, :3], inner[:3, 3] = rotations.to_matrix(turn), point
+        made.append(outer @ inner)
+    return made
+
+
+@settings(max_examples=40, deadline=None)
+@given(_arms)
+def test_joints_stand_where_forward_kinematics_puts_them(arm: Arm) -> None:
+    if not arm.bound:  # the model's own chain ends in links, not in what they show
+        for segment in arm.segments:
+            segment.shown_at = (0.0, 0.0, 0.0)
+    world, codes = load(arm)
+    assert codes == []
+    assert len(world.joints) == len(arm.segments)
+    for number, (segment, (before, after)) in enumerate(
+        zip(arm.segments, arm.frames(), strict=True)
+    ):
+        joint = world.joints[number]
+        unit = np.array(segment.axis) / np.linalg.norm(segment.axis)
+        outer, inner = frames_of(world, number)
+        assert np.allclose(outer[:3, 3], before[:3, 3], atol=1e-9)
+        assert np.allclose(inner[:3, 3], after[:3, 3], atol=1e-9)
+        assert np.allclose(outer[:3, 2], before[:3, :3] @ unit, atol=1e-9)
+        assert np.allclose(inner[:3, 2], after[:3, :3] @ unit, atol=1e-9)
+        # What lies between the frames is the value of the axis, along or about z.
+        apart = np.linalg.inv(outer) @ inner
+        slides = segment.kind == "prismatic"
+        shift = (0, 0, segment.value if slides else 0)
+        assert np.allclose(apart[:3, 3], shift, atol=1e-9)
+        angle = 0.0 if slides else math.radians(segment.value)
+        cosine, sine = math.cos(angle), math.sin(angle)
+        assert np.allclose(apart[:2, :2], [[cosine, -sine], [sine, cosine]], atol=1e-9)
+        low, high = segment.limits or (-math.inf, math.inf)
+        scale = 1.0 if slides else math.pi / 180
+        ends = (joint.linear_min, joint.linear_max) if slides else (
+            joint.angular_min, joint.angular_max)  # fmt: skip
+        assert np.allclose([end[2] for end in ends], [low * scale, high * scale], rtol=1e-15)
+        assert joint.kind is (JointKind.SLIDER if slides else JointKind.HINGE)
+        assert joint.interpenetrate
+        assert joint.name == f"joint {number}"
+
+
+def test_it_binds_the_bodies_of_the_links() -> None:
+    world, _ = load(Arm([Segment(), Segment()]))
+    names = [(joint.body1.name, joint.body2.name) for joint in world.joints
+             if joint.body1 and joint.body2]  # fmt: skip
+    assert names == [("base", "link 0"), ("link 0", "link 1")]
+
+
+@pytest.mark.parametrize(
+    ("limits", "axis", "info"),
+    [
+        ((0.0, 0.0), (0, 0, 0), ""),
+        ((0.0, 0.0), (0, 0, 1), ""),
+        (None, (0, 0, 1), "<locked><bool>true</bool></locked>"),
+    ],
+)
+def test_what_does_not_move_is_fixed_as_it_stands(limits: Any, axis: Any, info: str) -> None:
+    world, codes = load(Arm([Segment(limits=limits, axis=axis, info=info, value=30.0)]))
+    (joint,) = world.joints
+    assert (joint.kind, codes) == (JointKind.FIXED, [])
+    outer, inner = frames_of(world, 0)
+    assert np.allclose(outer, inner, atol=1e-12)
+
+
+def test_the_articulated_system_has_the_last_word_on_limits() -> None:
+    info = "<limits><min><float>-10</float></min><max><float>20</float></max></limits>"
+    world, _ = load(Arm([Segment(limits=(-90.0, 90.0), info=info)]))
+    (joint,) = world.joints
+    assert joint.angular_min[2] == pytest.approx(math.radians(-10), rel=1e-15)
+    assert joint.angular_max[2] == pytest.approx(math.radians(20), rel=1e-15)
+
+
+def _axis(kind: str, direction: str, limits: str = "") -> str:
+    return f'<{kind} sid="axis0"><axis>{direction}</axis>{limits}</{kind}>'
+
+
+def test_two_axes_at_right_angles_are_a_universal_joint() -> None:
+    limits = "<limits><min>-10</min><max>20</max></limits>"
+    joint = _axis("revolute", "0 1 0", limits) + _axis("revolute", "0 0 -2").replace("axis0", "a1")
+    world, _ = load(Arm([Segment(joint=joint)], bound=False))
+    (made,) = world.joints
+    assert np.allclose(np.degrees([made.angular_min[0], made.angular_max[0]]), [-10, 20])
+    assert np.isinf([made.angular_min[1], made.angular_max[1]]).all()
+    assert made.angular_min[2] == made.angular_max[2] == 0.0
+    outer, _ = frames_of(world, 0)
+    assert np.allclose(outer[:3, :2].T, [(0, 1, 0), (0, 0, -1)], atol=1e-12)
+
+
+def test_a_third_axis_the_other_way_round_has_its_limits_turned_round() -> None:
+    limits = "<limits><min>-10</min><max>20</max></limits>"
+    joint = "".join([
+        _axis("revolute", "1 0 0"), _axis("revolute", "0 1 0").replace("axis0", "a1"),
+        _axis("revolute", "0 0 -1", limits).replace("axis0", "a2"),
+    ])  # fmt: skip
+    (made,) = load(Arm([Segment(joint=joint)], bound=False))[0].joints
+    assert np.allclose(np.degrees([made.angular_min[2], made.angular_max[2]]), [-20, 10])
+
+
+def test_turning_and_sliding_along_one_axis_is_a_cylindrical_joint() -> None:
+    joint = _axis("revolute", "1 0 0") + _axis("prismatic", "-1 0 0",
+        "<limits><min>-1</min><max>3</max></limits>").replace("axis0", "a1")  # fmt: skip
+    (made,) = load(Arm([Segment(joint=joint)], bound=False))[0].joints
+    assert (made.linear_min[2], made.linear_max[2]) == (-3.0, 1.0)
+    assert np.isinf([made.angular_min[2], made.angular_max[2]]).all()
+
+
+@pytest.mark.parametrize(
+    "joint",
+    [
+        _axis("revolute", "1 0 0") + _axis("revolute", "1 1 0").replace("axis0", "a1"),
+        _axis("revolute", "1 0 0") + _axis("revolute", "-1 0 0").replace("axis0", "a1"),
+        _axis("revolute", "1 0 0") + _axis("prismatic", "0 1 0").replace("axis0", "a1"),
+    ],
+)
+def test_what_a_world_has_no_joint_for_is_said(joint: str) -> None:
+    world, codes = load(Arm([Segment(joint=joint)], bound=False))
+    assert (len(world.joints), codes) == (0, ["kinematics-joint-skipped"])
+
+
+def test_a_joint_that_a_constraint_holds_is_not_doubled() -> None:
+    constraint = (
+        '<rigid_constraint sid="c"><ref_attachment rigid_body="base"/>'
+        '<attachment rigid_body="b0"/><technique_common/></rigid_constraint>'
+    )
+    world, codes = load(Arm([Segment(), Segment()]), constraints=constraint)
+    assert len(world.joints) == 2
+    assert codes == ["kinematics-joint-doubled"]
+
+
+def test_formulas_are_said_not_to_be_kept() -> None:
+    formula = (
+        '<formula sid="f"><target><param>km/j1/axis0</param></target><technique_common>'
+        '<math xmlns="http://www.w3.org/1998/Math/MathML"><ci>x</ci></math></technique_common>'
+        "</formula>"
+    )
+    world, codes = load(Arm([Segment(), Segment()]), model=formula)
+    assert (len(world.joints), codes) == (2, ["kinematics-joint-follows"])
+
+
+def test_models_that_no_scene_instances_make_no_joints_and_that_is_said() -> None:
+    data = document(Arm([Segment()]), scene=" ")
+    read = colladaphy.read(data)
+    assert len(read.load().joints) == 0
+    assert "kinematics-not-instanced" in [finding.code for finding in read.report.findings]
+
+
+def test_a_base_without_mass_and_shape_is_the_world() -> None:
+    nothing = Segment(mass="", shape='<instance_geometry url="#none"/>')
+    data = document(Arm([Segment(), Segment()], base_at=(1.0, 2.0, 3.0), base=nothing))
+    geometry = (
+        b'<library_geometries><geometry id="none"><convex_mesh/></geometry></library_geometries>'
+    )
+    read = colladaphy.read(data.replace(b"<library_kinematics_models>", geometry
+                                        + b"<library_kinematics_models>"))  # fmt: skip
+    world = read.load()
+    assert [joint.body1 is None for joint in world.joints] == [True, False]
+    outer, _ = frames_of(world, 0)
+    assert np.allclose(outer, pose_matrix((1, 2, 4)), atol=1e-12)
+    assert "kinematics-link-in-world" in [finding.code for finding in read.report.findings]
+
+
+def test_nodes_that_stand_elsewhere_than_the_model_count_and_that_is_said() -> None:
+    data = document(Arm([Segment(), Segment()]))
+    moved = data.replace(
+        b'<attachment_full joint="km/j1"><translate>0.0 0.0 1.0',
+        b'<attachment_full joint="km/j1"><translate>0.0 0.5 1.0',
+    )
+    assert moved != data
+    read = colladaphy.read(moved)
+    world = read.load()
+    outer, _ = frames_of(world, 1)
+    assert np.allclose(outer[:3, 3], (0, 0, 2), atol=1e-12)
+    assert "kinematics-joint-frames" in [finding.code for finding in read.report.findings]
