@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every
 from colladaphy_schema.linking import Stated
 
 if TYPE_CHECKING:
@@ -152,6 +153,11 @@ class SamplerType:
 @dataclass(slots=True, kw_only=True)
 class AnimationType:
     """The type animation_type."""
+
+    source = Every["SourceType"]("choice", "SourceType")
+    sampler = Every["SamplerType"]("choice", "SamplerType")
+    channel = Every["ChannelType"]("choice", "ChannelType")
+    animation = Every["AnimationType"]("choice", "AnimationType")
 
     class Meta:
         name = "animation_type"

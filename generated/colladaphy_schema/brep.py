@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.linking import Stated
 
 if TYPE_CHECKING:
@@ -770,6 +771,13 @@ class NurbsType(Stated):
 class CurveType:
     """The type curve_type."""
 
+    line = One["LineType"]("choice", "LineType")
+    circle = One["CircleType"]("choice", "CircleType")
+    ellipse = One["EllipseType"]("choice", "EllipseType")
+    parabola = One["ParabolaType"]("choice", "ParabolaType")
+    hyperbola = One["HyperbolaType"]("choice", "HyperbolaType")
+    nurbs = One["NurbsType"]("choice", "NurbsType")
+
     class Meta:
         name = "curve_type"
 
@@ -893,6 +901,10 @@ class SurfaceCurvesType:
 class SweptSurfaceType:
     """The type swept_surface_type."""
 
+    direction = Every["Direction"]("direction_or_origin_or_axis", "Direction")
+    origin = Every["Origin"]("direction_or_origin_or_axis", "Origin")
+    axis = Every["Axis"]("direction_or_origin_or_axis", "Axis")
+
     class Meta:
         name = "swept_surface_type"
 
@@ -938,6 +950,14 @@ class SweptSurfaceType:
 @dataclass(slots=True, kw_only=True)
 class SurfaceType:
     """The type surface_type."""
+
+    plane = One["PlaneType"]("choice", "PlaneType")
+    sphere = One["SphereType"]("choice", "SphereType")
+    torus = One["TorusType"]("choice", "TorusType")
+    swept_surface = One["SweptSurfaceType"]("choice", "SweptSurfaceType")
+    nurbs_surface = One["NurbsSurfaceType"]("choice", "NurbsSurfaceType")
+    cone = One["ConeType"]("choice", "ConeType")
+    cylinder = One["SurfaceTypeCylinder"]("choice", "SurfaceTypeCylinder")
 
     class Meta:
         name = "surface_type"

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING
 
+from colladaphy_schema.choices import One
 from colladaphy_schema.linking import Stated
 
 if TYPE_CHECKING:
@@ -216,6 +217,9 @@ class SkinType(Stated):
 @dataclass(slots=True, kw_only=True)
 class ControllerType:
     """The type controller_type."""
+
+    skin = One["SkinType"]("skin_or_morph", "SkinType")
+    morph = One["MorphType"]("skin_or_morph", "MorphType")
 
     class Meta:
         name = "controller_type"

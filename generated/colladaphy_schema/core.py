@@ -7,6 +7,7 @@ from enum import Enum
 
 from xsdata.models.datatype import XmlDateTime
 
+from colladaphy_schema.choices import One
 from colladaphy_schema.linking import Stated
 
 __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
@@ -853,6 +854,14 @@ class AssetType:
 @dataclass(slots=True, kw_only=True)
 class SourceType:
     """The type source_type."""
+
+    token_array = One["TokenArrayType"]("choice", "TokenArrayType")
+    idref_array = One["IdrefArrayType"]("choice", "IdrefArrayType")
+    name_array = One["NameArrayType"]("choice", "NameArrayType")
+    bool_array = One["BoolArrayType"]("choice", "BoolArrayType")
+    float_array = One["FloatArrayType"]("choice", "FloatArrayType")
+    int_array = One["IntArrayType"]("choice", "IntArrayType")
+    sidref_array = One["SidrefArrayType"]("choice", "SidrefArrayType")
 
     class Meta:
         name = "source_type"

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every
+
 if TYPE_CHECKING:
     from colladaphy_schema.animation import LibraryAnimationClipsType, LibraryAnimationsType
     from colladaphy_schema.controllers import LibraryControllersType
@@ -83,6 +85,37 @@ class ColladaScene:
 @dataclass(slots=True, kw_only=True)
 class Collada:
     """The element COLLADA."""
+
+    library_animations = Every["LibraryAnimationsType"]("choice", "LibraryAnimationsType")
+    library_animation_clips = Every["LibraryAnimationClipsType"](
+        "choice", "LibraryAnimationClipsType"
+    )
+    library_cameras = Every["LibraryCamerasType"]("choice", "LibraryCamerasType")
+    library_controllers = Every["LibraryControllersType"]("choice", "LibraryControllersType")
+    library_geometries = Every["LibraryGeometriesType"]("choice", "LibraryGeometriesType")
+    library_effects = Every["LibraryEffectsType"]("choice", "LibraryEffectsType")
+    library_force_fields = Every["LibraryForceFieldsType"]("choice", "LibraryForceFieldsType")
+    library_images = Every["LibraryImagesType"]("choice", "LibraryImagesType")
+    library_lights = Every["LibraryLightsType"]("choice", "LibraryLightsType")
+    library_materials = Every["LibraryMaterialsType"]("choice", "LibraryMaterialsType")
+    library_nodes = Every["LibraryNodesType"]("choice", "LibraryNodesType")
+    library_physics_materials = Every["LibraryPhysicsMaterialsType"](
+        "choice", "LibraryPhysicsMaterialsType"
+    )
+    library_physics_models = Every["LibraryPhysicsModelsType"]("choice", "LibraryPhysicsModelsType")
+    library_physics_scenes = Every["LibraryPhysicsScenesType"]("choice", "LibraryPhysicsScenesType")
+    library_visual_scenes = Every["LibraryVisualScenesType"]("choice", "LibraryVisualScenesType")
+    library_joints = Every["LibraryJointsType"]("choice", "LibraryJointsType")
+    library_kinematics_models = Every["LibraryKinematicsModelsType"](
+        "choice", "LibraryKinematicsModelsType"
+    )
+    library_articulated_systems = Every["LibraryArticulatedSystemsType"](
+        "choice", "LibraryArticulatedSystemsType"
+    )
+    library_kinematics_scenes = Every["LibraryKinematicsScenesType"](
+        "choice", "LibraryKinematicsScenesType"
+    )
+    library_formulas = Every["LibraryFormulasType"]("choice", "LibraryFormulasType")
 
     class Meta:
         name = "COLLADA"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every
+
 if TYPE_CHECKING:
     from colladaphy_schema.core import AssetType, ExtraType
     from colladaphy_schema.fx_cg import ProfileCgType
@@ -24,6 +26,13 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 @dataclass(slots=True, kw_only=True)
 class EffectType:
     """The type effect_type."""
+
+    profile_common = Every["ProfileCommonType"]("choice", "ProfileCommonType")
+    profile_bridge = Every["ProfileBridgeType"]("choice", "ProfileBridgeType")
+    profile_gles2 = Every["ProfileGles2Type"]("choice", "ProfileGles2Type")
+    profile_glsl = Every["ProfileGlslType"]("choice", "ProfileGlslType")
+    profile_cg = Every["ProfileCgType"]("choice", "ProfileCgType")
+    profile_gles = Every["ProfileGlesType"]("choice", "ProfileGlesType")
 
     class Meta:
         name = "effect_type"

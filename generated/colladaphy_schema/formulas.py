@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import One
+
 if TYPE_CHECKING:
     from colladaphy_schema.core import AssetType, ExtraType, TechniqueType
     from colladaphy_schema.mathml import Math
@@ -60,6 +62,8 @@ class FormulaNewparamType:
 @dataclass(slots=True, kw_only=True)
 class FormulaSetparamType:
     """The type formula_setparam_type."""
+
+    connect_param = One["KinematicsConnectParamType"]("choice", "KinematicsConnectParamType")
 
     class Meta:
         name = "formula_setparam_type"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.fx_common import FxSourcesType
 from colladaphy_schema.linking import Stated
 
@@ -376,6 +377,237 @@ class CgPassTypeProgramShaderBindUniformParam:
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStates:
     """A type without a name in the schema: cg_pass_type_states."""
+
+    alpha_func = Every["CgPassTypeStatesAlphaFunc"]("choice", "CgPassTypeStatesAlphaFunc")
+    blend_func = Every["CgPassTypeStatesBlendFunc"]("choice", "CgPassTypeStatesBlendFunc")
+    blend_func_separate = Every["CgPassTypeStatesBlendFuncSeparate"](
+        "choice", "CgPassTypeStatesBlendFuncSeparate"
+    )
+    blend_equation = Every["CgPassTypeStatesBlendEquation"](
+        "choice", "CgPassTypeStatesBlendEquation"
+    )
+    blend_equation_separate = Every["CgPassTypeStatesBlendEquationSeparate"](
+        "choice", "CgPassTypeStatesBlendEquationSeparate"
+    )
+    color_material = Every["CgPassTypeStatesColorMaterial"](
+        "choice", "CgPassTypeStatesColorMaterial"
+    )
+    cull_face = Every["CgPassTypeStatesCullFace"]("choice", "CgPassTypeStatesCullFace")
+    depth_func = Every["CgPassTypeStatesDepthFunc"]("choice", "CgPassTypeStatesDepthFunc")
+    fog_mode = Every["CgPassTypeStatesFogMode"]("choice", "CgPassTypeStatesFogMode")
+    fog_coord_src = Every["CgPassTypeStatesFogCoordSrc"]("choice", "CgPassTypeStatesFogCoordSrc")
+    front_face = Every["CgPassTypeStatesFrontFace"]("choice", "CgPassTypeStatesFrontFace")
+    light_model_color_control = Every["CgPassTypeStatesLightModelColorControl"](
+        "choice", "CgPassTypeStatesLightModelColorControl"
+    )
+    logic_op = Every["CgPassTypeStatesLogicOp"]("choice", "CgPassTypeStatesLogicOp")
+    polygon_mode = Every["CgPassTypeStatesPolygonMode"]("choice", "CgPassTypeStatesPolygonMode")
+    shade_model = Every["CgPassTypeStatesShadeModel"]("choice", "CgPassTypeStatesShadeModel")
+    stencil_func = Every["CgPassTypeStatesStencilFunc"]("choice", "CgPassTypeStatesStencilFunc")
+    stencil_op = Every["CgPassTypeStatesStencilOp"]("choice", "CgPassTypeStatesStencilOp")
+    stencil_func_separate = Every["CgPassTypeStatesStencilFuncSeparate"](
+        "choice", "CgPassTypeStatesStencilFuncSeparate"
+    )
+    stencil_op_separate = Every["CgPassTypeStatesStencilOpSeparate"](
+        "choice", "CgPassTypeStatesStencilOpSeparate"
+    )
+    stencil_mask_separate = Every["CgPassTypeStatesStencilMaskSeparate"](
+        "choice", "CgPassTypeStatesStencilMaskSeparate"
+    )
+    light_enable = Every["CgPassTypeStatesLightEnable"]("choice", "CgPassTypeStatesLightEnable")
+    light_ambient = Every["CgPassTypeStatesLightAmbient"]("choice", "CgPassTypeStatesLightAmbient")
+    light_diffuse = Every["CgPassTypeStatesLightDiffuse"]("choice", "CgPassTypeStatesLightDiffuse")
+    light_specular = Every["CgPassTypeStatesLightSpecular"](
+        "choice", "CgPassTypeStatesLightSpecular"
+    )
+    light_position = Every["CgPassTypeStatesLightPosition"](
+        "choice", "CgPassTypeStatesLightPosition"
+    )
+    light_constant_attenuation = Every["CgPassTypeStatesLightConstantAttenuation"](
+        "choice", "CgPassTypeStatesLightConstantAttenuation"
+    )
+    light_linear_attenuation = Every["CgPassTypeStatesLightLinearAttenuation"](
+        "choice", "CgPassTypeStatesLightLinearAttenuation"
+    )
+    light_quadratic_attenuation = Every["CgPassTypeStatesLightQuadraticAttenuation"](
+        "choice", "CgPassTypeStatesLightQuadraticAttenuation"
+    )
+    light_spot_cutoff = Every["CgPassTypeStatesLightSpotCutoff"](
+        "choice", "CgPassTypeStatesLightSpotCutoff"
+    )
+    light_spot_direction = Every["CgPassTypeStatesLightSpotDirection"](
+        "choice", "CgPassTypeStatesLightSpotDirection"
+    )
+    light_spot_exponent = Every["CgPassTypeStatesLightSpotExponent"](
+        "choice", "CgPassTypeStatesLightSpotExponent"
+    )
+    texture1_d = Every["CgPassTypeStatesTexture1D"]("choice", "CgPassTypeStatesTexture1D")
+    texture2_d = Every["CgPassTypeStatesTexture2D"]("choice", "CgPassTypeStatesTexture2D")
+    texture3_d = Every["CgPassTypeStatesTexture3D"]("choice", "CgPassTypeStatesTexture3D")
+    texture_cube = Every["CgPassTypeStatesTextureCube"]("choice", "CgPassTypeStatesTextureCube")
+    texture_rect = Every["CgPassTypeStatesTextureRect"]("choice", "CgPassTypeStatesTextureRect")
+    texture_depth = Every["CgPassTypeStatesTextureDepth"]("choice", "CgPassTypeStatesTextureDepth")
+    texture1_d_enable = Every["CgPassTypeStatesTexture1DEnable"](
+        "choice", "CgPassTypeStatesTexture1DEnable"
+    )
+    texture2_d_enable = Every["CgPassTypeStatesTexture2DEnable"](
+        "choice", "CgPassTypeStatesTexture2DEnable"
+    )
+    texture3_d_enable = Every["CgPassTypeStatesTexture3DEnable"](
+        "choice", "CgPassTypeStatesTexture3DEnable"
+    )
+    texture_cube_enable = Every["CgPassTypeStatesTextureCubeEnable"](
+        "choice", "CgPassTypeStatesTextureCubeEnable"
+    )
+    texture_rect_enable = Every["CgPassTypeStatesTextureRectEnable"](
+        "choice", "CgPassTypeStatesTextureRectEnable"
+    )
+    texture_depth_enable = Every["CgPassTypeStatesTextureDepthEnable"](
+        "choice", "CgPassTypeStatesTextureDepthEnable"
+    )
+    texture_env_color = Every["CgPassTypeStatesTextureEnvColor"](
+        "choice", "CgPassTypeStatesTextureEnvColor"
+    )
+    texture_env_mode = Every["CgPassTypeStatesTextureEnvMode"](
+        "choice", "CgPassTypeStatesTextureEnvMode"
+    )
+    clip_plane = Every["CgPassTypeStatesClipPlane"]("choice", "CgPassTypeStatesClipPlane")
+    clip_plane_enable = Every["CgPassTypeStatesClipPlaneEnable"](
+        "choice", "CgPassTypeStatesClipPlaneEnable"
+    )
+    blend_color = Every["CgPassTypeStatesBlendColor"]("choice", "CgPassTypeStatesBlendColor")
+    color_mask = Every["CgPassTypeStatesColorMask"]("choice", "CgPassTypeStatesColorMask")
+    depth_bounds = Every["CgPassTypeStatesDepthBounds"]("choice", "CgPassTypeStatesDepthBounds")
+    depth_mask = Every["CgPassTypeStatesDepthMask"]("choice", "CgPassTypeStatesDepthMask")
+    depth_range = Every["CgPassTypeStatesDepthRange"]("choice", "CgPassTypeStatesDepthRange")
+    fog_density = Every["CgPassTypeStatesFogDensity"]("choice", "CgPassTypeStatesFogDensity")
+    fog_start = Every["CgPassTypeStatesFogStart"]("choice", "CgPassTypeStatesFogStart")
+    fog_end = Every["CgPassTypeStatesFogEnd"]("choice", "CgPassTypeStatesFogEnd")
+    fog_color = Every["CgPassTypeStatesFogColor"]("choice", "CgPassTypeStatesFogColor")
+    light_model_ambient = Every["CgPassTypeStatesLightModelAmbient"](
+        "choice", "CgPassTypeStatesLightModelAmbient"
+    )
+    lighting_enable = Every["CgPassTypeStatesLightingEnable"](
+        "choice", "CgPassTypeStatesLightingEnable"
+    )
+    line_stipple = Every["CgPassTypeStatesLineStipple"]("choice", "CgPassTypeStatesLineStipple")
+    line_width = Every["CgPassTypeStatesLineWidth"]("choice", "CgPassTypeStatesLineWidth")
+    material_ambient = Every["CgPassTypeStatesMaterialAmbient"](
+        "choice", "CgPassTypeStatesMaterialAmbient"
+    )
+    material_diffuse = Every["CgPassTypeStatesMaterialDiffuse"](
+        "choice", "CgPassTypeStatesMaterialDiffuse"
+    )
+    material_emission = Every["CgPassTypeStatesMaterialEmission"](
+        "choice", "CgPassTypeStatesMaterialEmission"
+    )
+    material_shininess = Every["CgPassTypeStatesMaterialShininess"](
+        "choice", "CgPassTypeStatesMaterialShininess"
+    )
+    material_specular = Every["CgPassTypeStatesMaterialSpecular"](
+        "choice", "CgPassTypeStatesMaterialSpecular"
+    )
+    model_view_matrix = Every["CgPassTypeStatesModelViewMatrix"](
+        "choice", "CgPassTypeStatesModelViewMatrix"
+    )
+    point_distance_attenuation = Every["CgPassTypeStatesPointDistanceAttenuation"](
+        "choice", "CgPassTypeStatesPointDistanceAttenuation"
+    )
+    point_fade_threshold_size = Every["CgPassTypeStatesPointFadeThresholdSize"](
+        "choice", "CgPassTypeStatesPointFadeThresholdSize"
+    )
+    point_size = Every["CgPassTypeStatesPointSize"]("choice", "CgPassTypeStatesPointSize")
+    point_size_min = Every["CgPassTypeStatesPointSizeMin"]("choice", "CgPassTypeStatesPointSizeMin")
+    point_size_max = Every["CgPassTypeStatesPointSizeMax"]("choice", "CgPassTypeStatesPointSizeMax")
+    polygon_offset = Every["CgPassTypeStatesPolygonOffset"](
+        "choice", "CgPassTypeStatesPolygonOffset"
+    )
+    projection_matrix = Every["CgPassTypeStatesProjectionMatrix"](
+        "choice", "CgPassTypeStatesProjectionMatrix"
+    )
+    scissor = Every["CgPassTypeStatesScissor"]("choice", "CgPassTypeStatesScissor")
+    stencil_mask = Every["CgPassTypeStatesStencilMask"]("choice", "CgPassTypeStatesStencilMask")
+    alpha_test_enable = Every["CgPassTypeStatesAlphaTestEnable"](
+        "choice", "CgPassTypeStatesAlphaTestEnable"
+    )
+    blend_enable = Every["CgPassTypeStatesBlendEnable"]("choice", "CgPassTypeStatesBlendEnable")
+    color_logic_op_enable = Every["CgPassTypeStatesColorLogicOpEnable"](
+        "choice", "CgPassTypeStatesColorLogicOpEnable"
+    )
+    color_material_enable = Every["CgPassTypeStatesColorMaterialEnable"](
+        "choice", "CgPassTypeStatesColorMaterialEnable"
+    )
+    cull_face_enable = Every["CgPassTypeStatesCullFaceEnable"](
+        "choice", "CgPassTypeStatesCullFaceEnable"
+    )
+    depth_bounds_enable = Every["CgPassTypeStatesDepthBoundsEnable"](
+        "choice", "CgPassTypeStatesDepthBoundsEnable"
+    )
+    depth_clamp_enable = Every["CgPassTypeStatesDepthClampEnable"](
+        "choice", "CgPassTypeStatesDepthClampEnable"
+    )
+    depth_test_enable = Every["CgPassTypeStatesDepthTestEnable"](
+        "choice", "CgPassTypeStatesDepthTestEnable"
+    )
+    dither_enable = Every["CgPassTypeStatesDitherEnable"]("choice", "CgPassTypeStatesDitherEnable")
+    fog_enable = Every["CgPassTypeStatesFogEnable"]("choice", "CgPassTypeStatesFogEnable")
+    light_model_local_viewer_enable = Every["CgPassTypeStatesLightModelLocalViewerEnable"](
+        "choice", "CgPassTypeStatesLightModelLocalViewerEnable"
+    )
+    light_model_two_side_enable = Every["CgPassTypeStatesLightModelTwoSideEnable"](
+        "choice", "CgPassTypeStatesLightModelTwoSideEnable"
+    )
+    line_smooth_enable = Every["CgPassTypeStatesLineSmoothEnable"](
+        "choice", "CgPassTypeStatesLineSmoothEnable"
+    )
+    line_stipple_enable = Every["CgPassTypeStatesLineStippleEnable"](
+        "choice", "CgPassTypeStatesLineStippleEnable"
+    )
+    logic_op_enable = Every["CgPassTypeStatesLogicOpEnable"](
+        "choice", "CgPassTypeStatesLogicOpEnable"
+    )
+    multisample_enable = Every["CgPassTypeStatesMultisampleEnable"](
+        "choice", "CgPassTypeStatesMultisampleEnable"
+    )
+    normalize_enable = Every["CgPassTypeStatesNormalizeEnable"](
+        "choice", "CgPassTypeStatesNormalizeEnable"
+    )
+    point_smooth_enable = Every["CgPassTypeStatesPointSmoothEnable"](
+        "choice", "CgPassTypeStatesPointSmoothEnable"
+    )
+    polygon_offset_fill_enable = Every["CgPassTypeStatesPolygonOffsetFillEnable"](
+        "choice", "CgPassTypeStatesPolygonOffsetFillEnable"
+    )
+    polygon_offset_line_enable = Every["CgPassTypeStatesPolygonOffsetLineEnable"](
+        "choice", "CgPassTypeStatesPolygonOffsetLineEnable"
+    )
+    polygon_offset_point_enable = Every["CgPassTypeStatesPolygonOffsetPointEnable"](
+        "choice", "CgPassTypeStatesPolygonOffsetPointEnable"
+    )
+    polygon_smooth_enable = Every["CgPassTypeStatesPolygonSmoothEnable"](
+        "choice", "CgPassTypeStatesPolygonSmoothEnable"
+    )
+    polygon_stipple_enable = Every["CgPassTypeStatesPolygonStippleEnable"](
+        "choice", "CgPassTypeStatesPolygonStippleEnable"
+    )
+    rescale_normal_enable = Every["CgPassTypeStatesRescaleNormalEnable"](
+        "choice", "CgPassTypeStatesRescaleNormalEnable"
+    )
+    sample_alpha_to_coverage_enable = Every["CgPassTypeStatesSampleAlphaToCoverageEnable"](
+        "choice", "CgPassTypeStatesSampleAlphaToCoverageEnable"
+    )
+    sample_alpha_to_one_enable = Every["CgPassTypeStatesSampleAlphaToOneEnable"](
+        "choice", "CgPassTypeStatesSampleAlphaToOneEnable"
+    )
+    sample_coverage_enable = Every["CgPassTypeStatesSampleCoverageEnable"](
+        "choice", "CgPassTypeStatesSampleCoverageEnable"
+    )
+    scissor_test_enable = Every["CgPassTypeStatesScissorTestEnable"](
+        "choice", "CgPassTypeStatesScissorTestEnable"
+    )
+    stencil_test_enable = Every["CgPassTypeStatesStencilTestEnable"](
+        "choice", "CgPassTypeStatesStencilTestEnable"
+    )
 
     class Meta:
         global_type = False
@@ -1738,6 +1970,95 @@ class Int4X4:
 class CgArrayType(Stated):
     """The type cg_array_type."""
 
+    bool_value = Every["Bool"]("choice", "Bool")
+    bool2 = Every["Bool2"]("choice", "Bool2")
+    bool3 = Every["Bool3"]("choice", "Bool3")
+    bool4 = Every["Bool4"]("choice", "Bool4")
+    bool2x1 = Every["Bool2X1"]("choice", "Bool2X1")
+    bool2x2 = Every["Bool2X2"]("choice", "Bool2X2")
+    bool2x3 = Every["Bool2X3"]("choice", "Bool2X3")
+    bool2x4 = Every["Bool2X4"]("choice", "Bool2X4")
+    bool3x1 = Every["Bool3X1"]("choice", "Bool3X1")
+    bool3x2 = Every["Bool3X2"]("choice", "Bool3X2")
+    bool3x3 = Every["Bool3X3"]("choice", "Bool3X3")
+    bool3x4 = Every["Bool3X4"]("choice", "Bool3X4")
+    bool4x1 = Every["Bool4X1"]("choice", "Bool4X1")
+    bool4x2 = Every["Bool4X2"]("choice", "Bool4X2")
+    bool4x3 = Every["Bool4X3"]("choice", "Bool4X3")
+    bool4x4 = Every["Bool4X4"]("choice", "Bool4X4")
+    float_value = Every["Float"]("choice", "Float")
+    float2 = Every["Float2"]("choice", "Float2")
+    float3 = Every["Float3"]("choice", "Float3")
+    float4 = Every["Float4"]("choice", "Float4")
+    float2x1 = Every["Float2X1"]("choice", "Float2X1")
+    float2x2 = Every["Float2X2"]("choice", "Float2X2")
+    float2x3 = Every["Float2X3"]("choice", "Float2X3")
+    float2x4 = Every["Float2X4"]("choice", "Float2X4")
+    float3x1 = Every["Float3X1"]("choice", "Float3X1")
+    float3x2 = Every["Float3X2"]("choice", "Float3X2")
+    float3x3 = Every["Float3X3"]("choice", "Float3X3")
+    float3x4 = Every["Float3X4"]("choice", "Float3X4")
+    float4x1 = Every["Float4X1"]("choice", "Float4X1")
+    float4x2 = Every["Float4X2"]("choice", "Float4X2")
+    float4x3 = Every["Float4X3"]("choice", "Float4X3")
+    float4x4 = Every["Float4X4"]("choice", "Float4X4")
+    int_value = Every["Int"]("choice", "Int")
+    int2 = Every["Int2"]("choice", "Int2")
+    int3 = Every["Int3"]("choice", "Int3")
+    int4 = Every["Int4"]("choice", "Int4")
+    int2x1 = Every["Int2X1"]("choice", "Int2X1")
+    int2x2 = Every["Int2X2"]("choice", "Int2X2")
+    int2x3 = Every["Int2X3"]("choice", "Int2X3")
+    int2x4 = Every["Int2X4"]("choice", "Int2X4")
+    int3x1 = Every["Int3X1"]("choice", "Int3X1")
+    int3x2 = Every["Int3X2"]("choice", "Int3X2")
+    int3x3 = Every["Int3X3"]("choice", "Int3X3")
+    int3x4 = Every["Int3X4"]("choice", "Int3X4")
+    int4x1 = Every["Int4X1"]("choice", "Int4X1")
+    int4x2 = Every["Int4X2"]("choice", "Int4X2")
+    int4x3 = Every["Int4X3"]("choice", "Int4X3")
+    int4x4 = Every["Int4X4"]("choice", "Int4X4")
+    half = Every["Half"]("choice", "Half")
+    half2 = Every["Half2"]("choice", "Half2")
+    half3 = Every["Half3"]("choice", "Half3")
+    half4 = Every["Half4"]("choice", "Half4")
+    half2x1 = Every["Half2X1"]("choice", "Half2X1")
+    half2x2 = Every["Half2X2"]("choice", "Half2X2")
+    half2x3 = Every["Half2X3"]("choice", "Half2X3")
+    half2x4 = Every["Half2X4"]("choice", "Half2X4")
+    half3x1 = Every["Half3X1"]("choice", "Half3X1")
+    half3x2 = Every["Half3X2"]("choice", "Half3X2")
+    half3x3 = Every["Half3X3"]("choice", "Half3X3")
+    half3x4 = Every["Half3X4"]("choice", "Half3X4")
+    half4x1 = Every["Half4X1"]("choice", "Half4X1")
+    half4x2 = Every["Half4X2"]("choice", "Half4X2")
+    half4x3 = Every["Half4X3"]("choice", "Half4X3")
+    half4x4 = Every["Half4X4"]("choice", "Half4X4")
+    fixed = Every["Fixed"]("choice", "Fixed")
+    fixed2 = Every["Fixed2"]("choice", "Fixed2")
+    fixed3 = Every["Fixed3"]("choice", "Fixed3")
+    fixed4 = Every["Fixed4"]("choice", "Fixed4")
+    fixed2x1 = Every["Fixed2X1"]("choice", "Fixed2X1")
+    fixed2x2 = Every["Fixed2X2"]("choice", "Fixed2X2")
+    fixed2x3 = Every["Fixed2X3"]("choice", "Fixed2X3")
+    fixed2x4 = Every["Fixed2X4"]("choice", "Fixed2X4")
+    fixed3x1 = Every["Fixed3X1"]("choice", "Fixed3X1")
+    fixed3x2 = Every["Fixed3X2"]("choice", "Fixed3X2")
+    fixed3x3 = Every["Fixed3X3"]("choice", "Fixed3X3")
+    fixed3x4 = Every["Fixed3X4"]("choice", "Fixed3X4")
+    fixed4x1 = Every["Fixed4X1"]("choice", "Fixed4X1")
+    fixed4x2 = Every["Fixed4X2"]("choice", "Fixed4X2")
+    fixed4x3 = Every["Fixed4X3"]("choice", "Fixed4X3")
+    fixed4x4 = Every["Fixed4X4"]("choice", "Fixed4X4")
+    sampler1_d = Every["FxSampler1DType"]("choice", "FxSampler1DType")
+    sampler2_d = Every["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = Every["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_rect = Every["FxSamplerRectType"]("choice", "FxSamplerRectType")
+    sampler_cube = Every["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = Every["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    array = Every["CgArrayType"]("choice", "CgArrayType")
+    usertype = Every["CgUserType"]("choice", "CgUserType")
+
     class Meta:
         name = "cg_array_type"
 
@@ -2379,6 +2700,95 @@ class CgPassTypeProgramShaderSources(FxSourcesType):
 class CgNewparamType:
     """The type cg_newparam_type."""
 
+    bool_value = One["Bool"]("choice", "Bool")
+    bool2 = One["Bool2"]("choice", "Bool2")
+    bool3 = One["Bool3"]("choice", "Bool3")
+    bool4 = One["Bool4"]("choice", "Bool4")
+    bool2x1 = One["Bool2X1"]("choice", "Bool2X1")
+    bool2x2 = One["Bool2X2"]("choice", "Bool2X2")
+    bool2x3 = One["Bool2X3"]("choice", "Bool2X3")
+    bool2x4 = One["Bool2X4"]("choice", "Bool2X4")
+    bool3x1 = One["Bool3X1"]("choice", "Bool3X1")
+    bool3x2 = One["Bool3X2"]("choice", "Bool3X2")
+    bool3x3 = One["Bool3X3"]("choice", "Bool3X3")
+    bool3x4 = One["Bool3X4"]("choice", "Bool3X4")
+    bool4x1 = One["Bool4X1"]("choice", "Bool4X1")
+    bool4x2 = One["Bool4X2"]("choice", "Bool4X2")
+    bool4x3 = One["Bool4X3"]("choice", "Bool4X3")
+    bool4x4 = One["Bool4X4"]("choice", "Bool4X4")
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    float2x1 = One["Float2X1"]("choice", "Float2X1")
+    float2x2 = One["Float2X2"]("choice", "Float2X2")
+    float2x3 = One["Float2X3"]("choice", "Float2X3")
+    float2x4 = One["Float2X4"]("choice", "Float2X4")
+    float3x1 = One["Float3X1"]("choice", "Float3X1")
+    float3x2 = One["Float3X2"]("choice", "Float3X2")
+    float3x3 = One["Float3X3"]("choice", "Float3X3")
+    float3x4 = One["Float3X4"]("choice", "Float3X4")
+    float4x1 = One["Float4X1"]("choice", "Float4X1")
+    float4x2 = One["Float4X2"]("choice", "Float4X2")
+    float4x3 = One["Float4X3"]("choice", "Float4X3")
+    float4x4 = One["Float4X4"]("choice", "Float4X4")
+    int_value = One["Int"]("choice", "Int")
+    int2 = One["Int2"]("choice", "Int2")
+    int3 = One["Int3"]("choice", "Int3")
+    int4 = One["Int4"]("choice", "Int4")
+    int2x1 = One["Int2X1"]("choice", "Int2X1")
+    int2x2 = One["Int2X2"]("choice", "Int2X2")
+    int2x3 = One["Int2X3"]("choice", "Int2X3")
+    int2x4 = One["Int2X4"]("choice", "Int2X4")
+    int3x1 = One["Int3X1"]("choice", "Int3X1")
+    int3x2 = One["Int3X2"]("choice", "Int3X2")
+    int3x3 = One["Int3X3"]("choice", "Int3X3")
+    int3x4 = One["Int3X4"]("choice", "Int3X4")
+    int4x1 = One["Int4X1"]("choice", "Int4X1")
+    int4x2 = One["Int4X2"]("choice", "Int4X2")
+    int4x3 = One["Int4X3"]("choice", "Int4X3")
+    int4x4 = One["Int4X4"]("choice", "Int4X4")
+    half = One["Half"]("choice", "Half")
+    half2 = One["Half2"]("choice", "Half2")
+    half3 = One["Half3"]("choice", "Half3")
+    half4 = One["Half4"]("choice", "Half4")
+    half2x1 = One["Half2X1"]("choice", "Half2X1")
+    half2x2 = One["Half2X2"]("choice", "Half2X2")
+    half2x3 = One["Half2X3"]("choice", "Half2X3")
+    half2x4 = One["Half2X4"]("choice", "Half2X4")
+    half3x1 = One["Half3X1"]("choice", "Half3X1")
+    half3x2 = One["Half3X2"]("choice", "Half3X2")
+    half3x3 = One["Half3X3"]("choice", "Half3X3")
+    half3x4 = One["Half3X4"]("choice", "Half3X4")
+    half4x1 = One["Half4X1"]("choice", "Half4X1")
+    half4x2 = One["Half4X2"]("choice", "Half4X2")
+    half4x3 = One["Half4X3"]("choice", "Half4X3")
+    half4x4 = One["Half4X4"]("choice", "Half4X4")
+    fixed = One["Fixed"]("choice", "Fixed")
+    fixed2 = One["Fixed2"]("choice", "Fixed2")
+    fixed3 = One["Fixed3"]("choice", "Fixed3")
+    fixed4 = One["Fixed4"]("choice", "Fixed4")
+    fixed2x1 = One["Fixed2X1"]("choice", "Fixed2X1")
+    fixed2x2 = One["Fixed2X2"]("choice", "Fixed2X2")
+    fixed2x3 = One["Fixed2X3"]("choice", "Fixed2X3")
+    fixed2x4 = One["Fixed2X4"]("choice", "Fixed2X4")
+    fixed3x1 = One["Fixed3X1"]("choice", "Fixed3X1")
+    fixed3x2 = One["Fixed3X2"]("choice", "Fixed3X2")
+    fixed3x3 = One["Fixed3X3"]("choice", "Fixed3X3")
+    fixed3x4 = One["Fixed3X4"]("choice", "Fixed3X4")
+    fixed4x1 = One["Fixed4X1"]("choice", "Fixed4X1")
+    fixed4x2 = One["Fixed4X2"]("choice", "Fixed4X2")
+    fixed4x3 = One["Fixed4X3"]("choice", "Fixed4X3")
+    fixed4x4 = One["Fixed4X4"]("choice", "Fixed4X4")
+    sampler1_d = One["FxSampler1DType"]("choice", "FxSampler1DType")
+    sampler2_d = One["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = One["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_rect = One["FxSamplerRectType"]("choice", "FxSamplerRectType")
+    sampler_cube = One["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = One["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    array = One["CgArrayType"]("choice", "CgArrayType")
+    usertype = One["CgUserType"]("choice", "CgUserType")
+
     class Meta:
         name = "cg_newparam_type"
 
@@ -2964,6 +3374,98 @@ class CgNewparamType:
 class CgPassTypeProgramShaderBindUniform:
     """A type without a name in the schema: cg_pass_type_program_shader_bind_uniform."""
 
+    param = One["CgPassTypeProgramShaderBindUniformParam"](
+        "choice", "CgPassTypeProgramShaderBindUniformParam"
+    )
+    bool_value = One["Bool"]("choice", "Bool")
+    bool2 = One["Bool2"]("choice", "Bool2")
+    bool3 = One["Bool3"]("choice", "Bool3")
+    bool4 = One["Bool4"]("choice", "Bool4")
+    bool2x1 = One["Bool2X1"]("choice", "Bool2X1")
+    bool2x2 = One["Bool2X2"]("choice", "Bool2X2")
+    bool2x3 = One["Bool2X3"]("choice", "Bool2X3")
+    bool2x4 = One["Bool2X4"]("choice", "Bool2X4")
+    bool3x1 = One["Bool3X1"]("choice", "Bool3X1")
+    bool3x2 = One["Bool3X2"]("choice", "Bool3X2")
+    bool3x3 = One["Bool3X3"]("choice", "Bool3X3")
+    bool3x4 = One["Bool3X4"]("choice", "Bool3X4")
+    bool4x1 = One["Bool4X1"]("choice", "Bool4X1")
+    bool4x2 = One["Bool4X2"]("choice", "Bool4X2")
+    bool4x3 = One["Bool4X3"]("choice", "Bool4X3")
+    bool4x4 = One["Bool4X4"]("choice", "Bool4X4")
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    float2x1 = One["Float2X1"]("choice", "Float2X1")
+    float2x2 = One["Float2X2"]("choice", "Float2X2")
+    float2x3 = One["Float2X3"]("choice", "Float2X3")
+    float2x4 = One["Float2X4"]("choice", "Float2X4")
+    float3x1 = One["Float3X1"]("choice", "Float3X1")
+    float3x2 = One["Float3X2"]("choice", "Float3X2")
+    float3x3 = One["Float3X3"]("choice", "Float3X3")
+    float3x4 = One["Float3X4"]("choice", "Float3X4")
+    float4x1 = One["Float4X1"]("choice", "Float4X1")
+    float4x2 = One["Float4X2"]("choice", "Float4X2")
+    float4x3 = One["Float4X3"]("choice", "Float4X3")
+    float4x4 = One["Float4X4"]("choice", "Float4X4")
+    int_value = One["Int"]("choice", "Int")
+    int2 = One["Int2"]("choice", "Int2")
+    int3 = One["Int3"]("choice", "Int3")
+    int4 = One["Int4"]("choice", "Int4")
+    int2x1 = One["Int2X1"]("choice", "Int2X1")
+    int2x2 = One["Int2X2"]("choice", "Int2X2")
+    int2x3 = One["Int2X3"]("choice", "Int2X3")
+    int2x4 = One["Int2X4"]("choice", "Int2X4")
+    int3x1 = One["Int3X1"]("choice", "Int3X1")
+    int3x2 = One["Int3X2"]("choice", "Int3X2")
+    int3x3 = One["Int3X3"]("choice", "Int3X3")
+    int3x4 = One["Int3X4"]("choice", "Int3X4")
+    int4x1 = One["Int4X1"]("choice", "Int4X1")
+    int4x2 = One["Int4X2"]("choice", "Int4X2")
+    int4x3 = One["Int4X3"]("choice", "Int4X3")
+    int4x4 = One["Int4X4"]("choice", "Int4X4")
+    half = One["Half"]("choice", "Half")
+    half2 = One["Half2"]("choice", "Half2")
+    half3 = One["Half3"]("choice", "Half3")
+    half4 = One["Half4"]("choice", "Half4")
+    half2x1 = One["Half2X1"]("choice", "Half2X1")
+    half2x2 = One["Half2X2"]("choice", "Half2X2")
+    half2x3 = One["Half2X3"]("choice", "Half2X3")
+    half2x4 = One["Half2X4"]("choice", "Half2X4")
+    half3x1 = One["Half3X1"]("choice", "Half3X1")
+    half3x2 = One["Half3X2"]("choice", "Half3X2")
+    half3x3 = One["Half3X3"]("choice", "Half3X3")
+    half3x4 = One["Half3X4"]("choice", "Half3X4")
+    half4x1 = One["Half4X1"]("choice", "Half4X1")
+    half4x2 = One["Half4X2"]("choice", "Half4X2")
+    half4x3 = One["Half4X3"]("choice", "Half4X3")
+    half4x4 = One["Half4X4"]("choice", "Half4X4")
+    fixed = One["Fixed"]("choice", "Fixed")
+    fixed2 = One["Fixed2"]("choice", "Fixed2")
+    fixed3 = One["Fixed3"]("choice", "Fixed3")
+    fixed4 = One["Fixed4"]("choice", "Fixed4")
+    fixed2x1 = One["Fixed2X1"]("choice", "Fixed2X1")
+    fixed2x2 = One["Fixed2X2"]("choice", "Fixed2X2")
+    fixed2x3 = One["Fixed2X3"]("choice", "Fixed2X3")
+    fixed2x4 = One["Fixed2X4"]("choice", "Fixed2X4")
+    fixed3x1 = One["Fixed3X1"]("choice", "Fixed3X1")
+    fixed3x2 = One["Fixed3X2"]("choice", "Fixed3X2")
+    fixed3x3 = One["Fixed3X3"]("choice", "Fixed3X3")
+    fixed3x4 = One["Fixed3X4"]("choice", "Fixed3X4")
+    fixed4x1 = One["Fixed4X1"]("choice", "Fixed4X1")
+    fixed4x2 = One["Fixed4X2"]("choice", "Fixed4X2")
+    fixed4x3 = One["Fixed4X3"]("choice", "Fixed4X3")
+    fixed4x4 = One["Fixed4X4"]("choice", "Fixed4X4")
+    sampler1_d = One["FxSampler1DType"]("choice", "FxSampler1DType")
+    sampler2_d = One["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = One["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_rect = One["FxSamplerRectType"]("choice", "FxSamplerRectType")
+    sampler_cube = One["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = One["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    array = One["CgArrayType"]("choice", "CgArrayType")
+    usertype = One["CgUserType"]("choice", "CgUserType")
+
     class Meta:
         global_type = False
 
@@ -3533,6 +4035,95 @@ class CgPassTypeProgramShaderBindUniform:
 @dataclass(slots=True, kw_only=True)
 class CgSetparamType:
     """The type cg_setparam_type."""
+
+    bool_value = One["Bool"]("choice", "Bool")
+    bool2 = One["Bool2"]("choice", "Bool2")
+    bool3 = One["Bool3"]("choice", "Bool3")
+    bool4 = One["Bool4"]("choice", "Bool4")
+    bool2x1 = One["Bool2X1"]("choice", "Bool2X1")
+    bool2x2 = One["Bool2X2"]("choice", "Bool2X2")
+    bool2x3 = One["Bool2X3"]("choice", "Bool2X3")
+    bool2x4 = One["Bool2X4"]("choice", "Bool2X4")
+    bool3x1 = One["Bool3X1"]("choice", "Bool3X1")
+    bool3x2 = One["Bool3X2"]("choice", "Bool3X2")
+    bool3x3 = One["Bool3X3"]("choice", "Bool3X3")
+    bool3x4 = One["Bool3X4"]("choice", "Bool3X4")
+    bool4x1 = One["Bool4X1"]("choice", "Bool4X1")
+    bool4x2 = One["Bool4X2"]("choice", "Bool4X2")
+    bool4x3 = One["Bool4X3"]("choice", "Bool4X3")
+    bool4x4 = One["Bool4X4"]("choice", "Bool4X4")
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    float2x1 = One["Float2X1"]("choice", "Float2X1")
+    float2x2 = One["Float2X2"]("choice", "Float2X2")
+    float2x3 = One["Float2X3"]("choice", "Float2X3")
+    float2x4 = One["Float2X4"]("choice", "Float2X4")
+    float3x1 = One["Float3X1"]("choice", "Float3X1")
+    float3x2 = One["Float3X2"]("choice", "Float3X2")
+    float3x3 = One["Float3X3"]("choice", "Float3X3")
+    float3x4 = One["Float3X4"]("choice", "Float3X4")
+    float4x1 = One["Float4X1"]("choice", "Float4X1")
+    float4x2 = One["Float4X2"]("choice", "Float4X2")
+    float4x3 = One["Float4X3"]("choice", "Float4X3")
+    float4x4 = One["Float4X4"]("choice", "Float4X4")
+    int_value = One["Int"]("choice", "Int")
+    int2 = One["Int2"]("choice", "Int2")
+    int3 = One["Int3"]("choice", "Int3")
+    int4 = One["Int4"]("choice", "Int4")
+    int2x1 = One["Int2X1"]("choice", "Int2X1")
+    int2x2 = One["Int2X2"]("choice", "Int2X2")
+    int2x3 = One["Int2X3"]("choice", "Int2X3")
+    int2x4 = One["Int2X4"]("choice", "Int2X4")
+    int3x1 = One["Int3X1"]("choice", "Int3X1")
+    int3x2 = One["Int3X2"]("choice", "Int3X2")
+    int3x3 = One["Int3X3"]("choice", "Int3X3")
+    int3x4 = One["Int3X4"]("choice", "Int3X4")
+    int4x1 = One["Int4X1"]("choice", "Int4X1")
+    int4x2 = One["Int4X2"]("choice", "Int4X2")
+    int4x3 = One["Int4X3"]("choice", "Int4X3")
+    int4x4 = One["Int4X4"]("choice", "Int4X4")
+    half = One["Half"]("choice", "Half")
+    half2 = One["Half2"]("choice", "Half2")
+    half3 = One["Half3"]("choice", "Half3")
+    half4 = One["Half4"]("choice", "Half4")
+    half2x1 = One["Half2X1"]("choice", "Half2X1")
+    half2x2 = One["Half2X2"]("choice", "Half2X2")
+    half2x3 = One["Half2X3"]("choice", "Half2X3")
+    half2x4 = One["Half2X4"]("choice", "Half2X4")
+    half3x1 = One["Half3X1"]("choice", "Half3X1")
+    half3x2 = One["Half3X2"]("choice", "Half3X2")
+    half3x3 = One["Half3X3"]("choice", "Half3X3")
+    half3x4 = One["Half3X4"]("choice", "Half3X4")
+    half4x1 = One["Half4X1"]("choice", "Half4X1")
+    half4x2 = One["Half4X2"]("choice", "Half4X2")
+    half4x3 = One["Half4X3"]("choice", "Half4X3")
+    half4x4 = One["Half4X4"]("choice", "Half4X4")
+    fixed = One["Fixed"]("choice", "Fixed")
+    fixed2 = One["Fixed2"]("choice", "Fixed2")
+    fixed3 = One["Fixed3"]("choice", "Fixed3")
+    fixed4 = One["Fixed4"]("choice", "Fixed4")
+    fixed2x1 = One["Fixed2X1"]("choice", "Fixed2X1")
+    fixed2x2 = One["Fixed2X2"]("choice", "Fixed2X2")
+    fixed2x3 = One["Fixed2X3"]("choice", "Fixed2X3")
+    fixed2x4 = One["Fixed2X4"]("choice", "Fixed2X4")
+    fixed3x1 = One["Fixed3X1"]("choice", "Fixed3X1")
+    fixed3x2 = One["Fixed3X2"]("choice", "Fixed3X2")
+    fixed3x3 = One["Fixed3X3"]("choice", "Fixed3X3")
+    fixed3x4 = One["Fixed3X4"]("choice", "Fixed3X4")
+    fixed4x1 = One["Fixed4X1"]("choice", "Fixed4X1")
+    fixed4x2 = One["Fixed4X2"]("choice", "Fixed4X2")
+    fixed4x3 = One["Fixed4X3"]("choice", "Fixed4X3")
+    fixed4x4 = One["Fixed4X4"]("choice", "Fixed4X4")
+    sampler1_d = One["FxSampler1DType"]("choice", "FxSampler1DType")
+    sampler2_d = One["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = One["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_rect = One["FxSamplerRectType"]("choice", "FxSamplerRectType")
+    sampler_cube = One["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = One["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    array = One["CgArrayType"]("choice", "CgArrayType")
+    usertype = One["CgUserType"]("choice", "CgUserType")
 
     class Meta:
         name = "cg_setparam_type"
@@ -4247,6 +4838,9 @@ class ProfileCgTypeTechnique:
 @dataclass(slots=True, kw_only=True)
 class ProfileCgType(Stated):
     """The type profile_cg_type."""
+
+    code = Every["FxCodeType"]("code_or_include", "FxCodeType")
+    include = Every["FxIncludeType"]("code_or_include", "FxIncludeType")
 
     class Meta:
         name = "profile_cg_type"

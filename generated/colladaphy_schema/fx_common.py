@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any, ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.images import ImageFaceEnum
 from colladaphy_schema.linking import Stated
 
@@ -45,6 +46,22 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 @dataclass(slots=True, kw_only=True)
 class FxAnnotateType:
     """The type fx_annotate_type."""
+
+    bool_value = One["Bool"]("choice", "Bool")
+    bool2 = One["Bool2"]("choice", "Bool2")
+    bool3 = One["Bool3"]("choice", "Bool3")
+    bool4 = One["Bool4"]("choice", "Bool4")
+    int_value = One["Int"]("choice", "Int")
+    int2 = One["Int2"]("choice", "Int2")
+    int3 = One["Int3"]("choice", "Int3")
+    int4 = One["Int4"]("choice", "Int4")
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    float2x2 = One["Float2X2"]("choice", "Float2X2")
+    float3x3 = One["Float3X3"]("choice", "Float3X3")
+    float4x4 = One["Float4X4"]("choice", "Float4X4")
 
     class Meta:
         name = "fx_annotate_type"
@@ -460,6 +477,11 @@ class FxCommonColorOrTextureTypeTexture:
 class FxCommonFloatOrParamType:
     """The type fx_common_float_or_param_type."""
 
+    float_value = One["FxCommonFloatOrParamTypeFloat"](
+        "float_or_param", "FxCommonFloatOrParamTypeFloat"
+    )
+    param = One["FxCommonFloatOrParamTypeParam"]("float_or_param", "FxCommonFloatOrParamTypeParam")
+
     class Meta:
         name = "fx_common_float_or_param_type"
 
@@ -486,6 +508,9 @@ class FxCommonFloatOrParamType:
 @dataclass(slots=True, kw_only=True)
 class FxRendertargetType(Stated):
     """The type fx_rendertarget_type."""
+
+    param = One["FxRendertargetTypeParam"]("param_or_instance_image", "FxRendertargetTypeParam")
+    instance_image = One["InstanceImageType"]("param_or_instance_image", "InstanceImageType")
 
     class Meta:
         name = "fx_rendertarget_type"
@@ -640,6 +665,8 @@ class FxSamplerType(Stated):
 class FxSourcesType(Stated):
     """The type fx_sources_type."""
 
+    import_value = Every["FxSourcesTypeImport"]("inline_or_import", "FxSourcesTypeImport")
+
     class Meta:
         name = "fx_sources_type"
 
@@ -666,6 +693,8 @@ class FxSourcesType(Stated):
 @dataclass(slots=True, kw_only=True)
 class FxTargetTypeBinary:
     """A type without a name in the schema: fx_target_type_binary."""
+
+    hex = One["FxTargetTypeBinaryHex"]("ref_or_hex", "FxTargetTypeBinaryHex")
 
     class Meta:
         global_type = False
@@ -741,6 +770,16 @@ class FxColortargetType(FxRendertargetType):
 @dataclass(slots=True, kw_only=True)
 class FxCommonColorOrTextureType(Stated):
     """The type fx_common_color_or_texture_type."""
+
+    color = One["FxCommonColorOrTextureTypeColor"](
+        "color_or_param_or_texture", "FxCommonColorOrTextureTypeColor"
+    )
+    param = One["FxCommonColorOrTextureTypeParam"](
+        "color_or_param_or_texture", "FxCommonColorOrTextureTypeParam"
+    )
+    texture = One["FxCommonColorOrTextureTypeTexture"](
+        "color_or_param_or_texture", "FxCommonColorOrTextureTypeTexture"
+    )
 
     class Meta:
         name = "fx_common_color_or_texture_type"
@@ -1428,6 +1467,12 @@ class FxTargetType:
 class FxCommonNewparamType:
     """The type fx_common_newparam_type."""
 
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    sampler2_d = One["FxSampler2DType"]("choice", "FxSampler2DType")
+
     class Meta:
         name = "fx_common_newparam_type"
 
@@ -1496,6 +1541,37 @@ class FxCommonTransparentType(FxCommonColorOrTextureType):
 @dataclass(slots=True, kw_only=True)
 class FxNewparamType:
     """The type fx_newparam_type."""
+
+    bool_value = One["Bool"]("choice", "Bool")
+    bool2 = One["Bool2"]("choice", "Bool2")
+    bool3 = One["Bool3"]("choice", "Bool3")
+    bool4 = One["Bool4"]("choice", "Bool4")
+    int_value = One["Int"]("choice", "Int")
+    int2 = One["Int2"]("choice", "Int2")
+    int3 = One["Int3"]("choice", "Int3")
+    int4 = One["Int4"]("choice", "Int4")
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    float2x1 = One["Float2X1"]("choice", "Float2X1")
+    float2x2 = One["Float2X2"]("choice", "Float2X2")
+    float2x3 = One["Float2X3"]("choice", "Float2X3")
+    float2x4 = One["Float2X4"]("choice", "Float2X4")
+    float3x1 = One["Float3X1"]("choice", "Float3X1")
+    float3x2 = One["Float3X2"]("choice", "Float3X2")
+    float3x3 = One["Float3X3"]("choice", "Float3X3")
+    float3x4 = One["Float3X4"]("choice", "Float3X4")
+    float4x1 = One["Float4X1"]("choice", "Float4X1")
+    float4x2 = One["Float4X2"]("choice", "Float4X2")
+    float4x3 = One["Float4X3"]("choice", "Float4X3")
+    float4x4 = One["Float4X4"]("choice", "Float4X4")
+    sampler1_d = One["FxSampler1DType"]("choice", "FxSampler1DType")
+    sampler2_d = One["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = One["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = One["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_rect = One["FxSamplerRectType"]("choice", "FxSamplerRectType")
+    sampler_depth = One["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
 
     class Meta:
         name = "fx_newparam_type"
@@ -2001,6 +2077,15 @@ class ProfileCommonTypeTechniquePhong:
 @dataclass(slots=True, kw_only=True)
 class ProfileCommonTypeTechnique:
     """A type without a name in the schema: profile_common_type_technique."""
+
+    constant = One["ProfileCommonTypeTechniqueConstant"](
+        "choice", "ProfileCommonTypeTechniqueConstant"
+    )
+    lambert = One["ProfileCommonTypeTechniqueLambert"](
+        "choice", "ProfileCommonTypeTechniqueLambert"
+    )
+    phong = One["ProfileCommonTypeTechniquePhong"]("choice", "ProfileCommonTypeTechniquePhong")
+    blinn = One["ProfileCommonTypeTechniqueBlinn"]("choice", "ProfileCommonTypeTechniqueBlinn")
 
     class Meta:
         global_type = False

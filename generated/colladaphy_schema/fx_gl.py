@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import One
 from colladaphy_schema.linking import Stated
 
 if TYPE_CHECKING:
@@ -1863,6 +1864,8 @@ class CgPassTypeStatesStencilTestEnable(Stated):
 class CgPassTypeStatesTexture1D:
     """A type without a name in the schema: cg_pass_type_states_texture1D."""
 
+    value = One["FxSampler1DType"]("value_or_param", "FxSampler1DType")
+
     class Meta:
         global_type = False
 
@@ -1923,6 +1926,8 @@ class CgPassTypeStatesTexture1DEnable(Stated):
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTexture2D:
     """A type without a name in the schema: cg_pass_type_states_texture2D."""
+
+    value = One["FxSampler2DType"]("value_or_param", "FxSampler2DType")
 
     class Meta:
         global_type = False
@@ -1985,6 +1990,8 @@ class CgPassTypeStatesTexture2DEnable(Stated):
 class CgPassTypeStatesTexture3D:
     """A type without a name in the schema: cg_pass_type_states_texture3D."""
 
+    value = One["FxSampler3DType"]("value_or_param", "FxSampler3DType")
+
     class Meta:
         global_type = False
 
@@ -2045,6 +2052,8 @@ class CgPassTypeStatesTexture3DEnable(Stated):
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureCube:
     """A type without a name in the schema: cg_pass_type_states_textureCUBE."""
+
+    value = One["FxSamplerCubeType"]("value_or_param", "FxSamplerCubeType")
 
     class Meta:
         global_type = False
@@ -2107,6 +2116,8 @@ class CgPassTypeStatesTextureCubeEnable(Stated):
 class CgPassTypeStatesTextureDepth:
     """A type without a name in the schema: cg_pass_type_states_textureDEPTH."""
 
+    value = One["FxSamplerDepthType"]("value_or_param", "FxSamplerDepthType")
+
     class Meta:
         global_type = False
 
@@ -2167,6 +2178,8 @@ class CgPassTypeStatesTextureDepthEnable(Stated):
 @dataclass(slots=True, kw_only=True)
 class CgPassTypeStatesTextureRect:
     """A type without a name in the schema: cg_pass_type_states_textureRECT."""
+
+    value = One["FxSamplerRectType"]("value_or_param", "FxSamplerRectType")
 
     class Meta:
         global_type = False
@@ -4339,6 +4352,8 @@ class ProfileGlslTypeTechniquePassStatesStencilTestEnable(Stated):
 class ProfileGlslTypeTechniquePassStatesTexture1D:
     """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture1D."""
 
+    value = One["FxSampler1DType"]("value_or_param", "FxSampler1DType")
+
     class Meta:
         global_type = False
 
@@ -4399,6 +4414,8 @@ class ProfileGlslTypeTechniquePassStatesTexture1DEnable(Stated):
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTexture2D:
     """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture2D."""
+
+    value = One["FxSampler2DType"]("value_or_param", "FxSampler2DType")
 
     class Meta:
         global_type = False
@@ -4461,6 +4478,8 @@ class ProfileGlslTypeTechniquePassStatesTexture2DEnable(Stated):
 class ProfileGlslTypeTechniquePassStatesTexture3D:
     """A type without a name in the schema: profile_glsl_type_technique_pass_states_texture3D."""
 
+    value = One["FxSampler3DType"]("value_or_param", "FxSampler3DType")
+
     class Meta:
         global_type = False
 
@@ -4521,6 +4540,8 @@ class ProfileGlslTypeTechniquePassStatesTexture3DEnable(Stated):
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureCube:
     """A type without a name in the schema: profile_glsl_type_technique_pass_states_textureCUBE."""
+
+    value = One["FxSamplerCubeType"]("value_or_param", "FxSamplerCubeType")
 
     class Meta:
         global_type = False
@@ -4583,6 +4604,8 @@ class ProfileGlslTypeTechniquePassStatesTextureCubeEnable(Stated):
 class ProfileGlslTypeTechniquePassStatesTextureDepth:
     """A type without a name in the schema: profile_glsl_type_technique_pass_states_textureDEPTH."""
 
+    value = One["FxSamplerDepthType"]("value_or_param", "FxSamplerDepthType")
+
     class Meta:
         global_type = False
 
@@ -4643,6 +4666,8 @@ class ProfileGlslTypeTechniquePassStatesTextureDepthEnable(Stated):
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStatesTextureRect:
     """A type without a name in the schema: profile_glsl_type_technique_pass_states_textureRECT."""
+
+    value = One["FxSamplerRectType"]("value_or_param", "FxSamplerRectType")
 
     class Meta:
         global_type = False

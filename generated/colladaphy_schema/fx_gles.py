@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.fx_gl import (
     GlBlendEnum,
     GlFaceEnum,
@@ -2314,6 +2315,36 @@ class ProfileGlesTypeTechniquePassStatesStencilOpZpass(Stated):
 class GlesNewparamType:
     """The type gles_newparam_type."""
 
+    bool_value = One["Bool"]("choice", "Bool")
+    bool2 = One["Bool2"]("choice", "Bool2")
+    bool3 = One["Bool3"]("choice", "Bool3")
+    bool4 = One["Bool4"]("choice", "Bool4")
+    int_value = One["Int"]("choice", "Int")
+    int2 = One["Int2"]("choice", "Int2")
+    int3 = One["Int3"]("choice", "Int3")
+    int4 = One["Int4"]("choice", "Int4")
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    float1x1 = One["Float1X1"]("choice", "Float1X1")
+    float1x2 = One["Float1X2"]("choice", "Float1X2")
+    float1x3 = One["Float1X3"]("choice", "Float1X3")
+    float1x4 = One["Float1X4"]("choice", "Float1X4")
+    float2x1 = One["Float2X1"]("choice", "Float2X1")
+    float2x2 = One["Float2X2"]("choice", "Float2X2")
+    float2x3 = One["Float2X3"]("choice", "Float2X3")
+    float2x4 = One["Float2X4"]("choice", "Float2X4")
+    float3x1 = One["Float3X1"]("choice", "Float3X1")
+    float3x2 = One["Float3X2"]("choice", "Float3X2")
+    float3x3 = One["Float3X3"]("choice", "Float3X3")
+    float3x4 = One["Float3X4"]("choice", "Float3X4")
+    float4x1 = One["Float4X1"]("choice", "Float4X1")
+    float4x2 = One["Float4X2"]("choice", "Float4X2")
+    float4x3 = One["Float4X3"]("choice", "Float4X3")
+    float4x4 = One["Float4X4"]("choice", "Float4X4")
+    sampler2_d = One["GlesSamplerType"]("choice", "GlesSamplerType")
+
     class Meta:
         name = "gles_newparam_type"
 
@@ -2726,6 +2757,14 @@ class GlesTexcombinerCommandType:
 class GlesTexturePipelineType:
     """The type gles_texture_pipeline_type."""
 
+    texcombiner = Every["GlesTexcombinerCommandType"](
+        "texcombiner_or_texenv_or_extra", "GlesTexcombinerCommandType"
+    )
+    texenv = Every["GlesTexenvCommandType"](
+        "texcombiner_or_texenv_or_extra", "GlesTexenvCommandType"
+    )
+    extra = Every["ExtraType"]("texcombiner_or_texenv_or_extra", "ExtraType")
+
     class Meta:
         name = "gles_texture_pipeline_type"
 
@@ -2781,6 +2820,214 @@ class ProfileGlesTypeTechniquePassStatesTexturePipeline:
 @dataclass(slots=True, kw_only=True)
 class ProfileGlesTypeTechniquePassStates:
     """A type without a name in the schema: profile_gles_type_technique_pass_states."""
+
+    alpha_func = Every["ProfileGlesTypeTechniquePassStatesAlphaFunc"](
+        "choice", "ProfileGlesTypeTechniquePassStatesAlphaFunc"
+    )
+    blend_func = Every["ProfileGlesTypeTechniquePassStatesBlendFunc"](
+        "choice", "ProfileGlesTypeTechniquePassStatesBlendFunc"
+    )
+    clip_plane = Every["ProfileGlesTypeTechniquePassStatesClipPlane"](
+        "choice", "ProfileGlesTypeTechniquePassStatesClipPlane"
+    )
+    color_mask = Every["ProfileGlesTypeTechniquePassStatesColorMask"](
+        "choice", "ProfileGlesTypeTechniquePassStatesColorMask"
+    )
+    cull_face = Every["ProfileGlesTypeTechniquePassStatesCullFace"](
+        "choice", "ProfileGlesTypeTechniquePassStatesCullFace"
+    )
+    depth_func = Every["ProfileGlesTypeTechniquePassStatesDepthFunc"](
+        "choice", "ProfileGlesTypeTechniquePassStatesDepthFunc"
+    )
+    depth_mask = Every["ProfileGlesTypeTechniquePassStatesDepthMask"](
+        "choice", "ProfileGlesTypeTechniquePassStatesDepthMask"
+    )
+    depth_range = Every["ProfileGlesTypeTechniquePassStatesDepthRange"](
+        "choice", "ProfileGlesTypeTechniquePassStatesDepthRange"
+    )
+    fog_color = Every["ProfileGlesTypeTechniquePassStatesFogColor"](
+        "choice", "ProfileGlesTypeTechniquePassStatesFogColor"
+    )
+    fog_density = Every["ProfileGlesTypeTechniquePassStatesFogDensity"](
+        "choice", "ProfileGlesTypeTechniquePassStatesFogDensity"
+    )
+    fog_mode = Every["ProfileGlesTypeTechniquePassStatesFogMode"](
+        "choice", "ProfileGlesTypeTechniquePassStatesFogMode"
+    )
+    fog_start = Every["ProfileGlesTypeTechniquePassStatesFogStart"](
+        "choice", "ProfileGlesTypeTechniquePassStatesFogStart"
+    )
+    fog_end = Every["ProfileGlesTypeTechniquePassStatesFogEnd"](
+        "choice", "ProfileGlesTypeTechniquePassStatesFogEnd"
+    )
+    front_face = Every["ProfileGlesTypeTechniquePassStatesFrontFace"](
+        "choice", "ProfileGlesTypeTechniquePassStatesFrontFace"
+    )
+    logic_op = Every["ProfileGlesTypeTechniquePassStatesLogicOp"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLogicOp"
+    )
+    light_ambient = Every["ProfileGlesTypeTechniquePassStatesLightAmbient"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightAmbient"
+    )
+    light_diffuse = Every["ProfileGlesTypeTechniquePassStatesLightDiffuse"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightDiffuse"
+    )
+    light_specular = Every["ProfileGlesTypeTechniquePassStatesLightSpecular"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightSpecular"
+    )
+    light_position = Every["ProfileGlesTypeTechniquePassStatesLightPosition"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightPosition"
+    )
+    light_constant_attenuation = Every[
+        "ProfileGlesTypeTechniquePassStatesLightConstantAttenuation"
+    ]("choice", "ProfileGlesTypeTechniquePassStatesLightConstantAttenuation")
+    light_linear_attenuation = Every["ProfileGlesTypeTechniquePassStatesLightLinearAttenuation"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightLinearAttenuation"
+    )
+    light_quadratic_attenuation = Every[
+        "ProfileGlesTypeTechniquePassStatesLightQuadraticAttenuation"
+    ]("choice", "ProfileGlesTypeTechniquePassStatesLightQuadraticAttenuation")
+    light_spot_cutoff = Every["ProfileGlesTypeTechniquePassStatesLightSpotCutoff"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightSpotCutoff"
+    )
+    light_spot_direction = Every["ProfileGlesTypeTechniquePassStatesLightSpotDirection"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightSpotDirection"
+    )
+    light_spot_exponent = Every["ProfileGlesTypeTechniquePassStatesLightSpotExponent"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightSpotExponent"
+    )
+    light_model_ambient = Every["ProfileGlesTypeTechniquePassStatesLightModelAmbient"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightModelAmbient"
+    )
+    line_width = Every["ProfileGlesTypeTechniquePassStatesLineWidth"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLineWidth"
+    )
+    material_ambient = Every["ProfileGlesTypeTechniquePassStatesMaterialAmbient"](
+        "choice", "ProfileGlesTypeTechniquePassStatesMaterialAmbient"
+    )
+    material_diffuse = Every["ProfileGlesTypeTechniquePassStatesMaterialDiffuse"](
+        "choice", "ProfileGlesTypeTechniquePassStatesMaterialDiffuse"
+    )
+    material_emission = Every["ProfileGlesTypeTechniquePassStatesMaterialEmission"](
+        "choice", "ProfileGlesTypeTechniquePassStatesMaterialEmission"
+    )
+    material_shininess = Every["ProfileGlesTypeTechniquePassStatesMaterialShininess"](
+        "choice", "ProfileGlesTypeTechniquePassStatesMaterialShininess"
+    )
+    material_specular = Every["ProfileGlesTypeTechniquePassStatesMaterialSpecular"](
+        "choice", "ProfileGlesTypeTechniquePassStatesMaterialSpecular"
+    )
+    model_view_matrix = Every["ProfileGlesTypeTechniquePassStatesModelViewMatrix"](
+        "choice", "ProfileGlesTypeTechniquePassStatesModelViewMatrix"
+    )
+    point_distance_attenuation = Every[
+        "ProfileGlesTypeTechniquePassStatesPointDistanceAttenuation"
+    ]("choice", "ProfileGlesTypeTechniquePassStatesPointDistanceAttenuation")
+    point_fade_threshold_size = Every["ProfileGlesTypeTechniquePassStatesPointFadeThresholdSize"](
+        "choice", "ProfileGlesTypeTechniquePassStatesPointFadeThresholdSize"
+    )
+    point_size = Every["ProfileGlesTypeTechniquePassStatesPointSize"](
+        "choice", "ProfileGlesTypeTechniquePassStatesPointSize"
+    )
+    point_size_min = Every["ProfileGlesTypeTechniquePassStatesPointSizeMin"](
+        "choice", "ProfileGlesTypeTechniquePassStatesPointSizeMin"
+    )
+    point_size_max = Every["ProfileGlesTypeTechniquePassStatesPointSizeMax"](
+        "choice", "ProfileGlesTypeTechniquePassStatesPointSizeMax"
+    )
+    polygon_offset = Every["ProfileGlesTypeTechniquePassStatesPolygonOffset"](
+        "choice", "ProfileGlesTypeTechniquePassStatesPolygonOffset"
+    )
+    projection_matrix = Every["ProfileGlesTypeTechniquePassStatesProjectionMatrix"](
+        "choice", "ProfileGlesTypeTechniquePassStatesProjectionMatrix"
+    )
+    scissor = Every["ProfileGlesTypeTechniquePassStatesScissor"](
+        "choice", "ProfileGlesTypeTechniquePassStatesScissor"
+    )
+    shade_model = Every["ProfileGlesTypeTechniquePassStatesShadeModel"](
+        "choice", "ProfileGlesTypeTechniquePassStatesShadeModel"
+    )
+    stencil_func = Every["ProfileGlesTypeTechniquePassStatesStencilFunc"](
+        "choice", "ProfileGlesTypeTechniquePassStatesStencilFunc"
+    )
+    stencil_mask = Every["ProfileGlesTypeTechniquePassStatesStencilMask"](
+        "choice", "ProfileGlesTypeTechniquePassStatesStencilMask"
+    )
+    stencil_op = Every["ProfileGlesTypeTechniquePassStatesStencilOp"](
+        "choice", "ProfileGlesTypeTechniquePassStatesStencilOp"
+    )
+    texture_pipeline = Every["ProfileGlesTypeTechniquePassStatesTexturePipeline"](
+        "choice", "ProfileGlesTypeTechniquePassStatesTexturePipeline"
+    )
+    alpha_test_enable = Every["ProfileGlesTypeTechniquePassStatesAlphaTestEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesAlphaTestEnable"
+    )
+    blend_enable = Every["ProfileGlesTypeTechniquePassStatesBlendEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesBlendEnable"
+    )
+    clip_plane_enable = Every["ProfileGlesTypeTechniquePassStatesClipPlaneEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesClipPlaneEnable"
+    )
+    color_logic_op_enable = Every["ProfileGlesTypeTechniquePassStatesColorLogicOpEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesColorLogicOpEnable"
+    )
+    color_material_enable = Every["ProfileGlesTypeTechniquePassStatesColorMaterialEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesColorMaterialEnable"
+    )
+    cull_face_enable = Every["ProfileGlesTypeTechniquePassStatesCullFaceEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesCullFaceEnable"
+    )
+    depth_test_enable = Every["ProfileGlesTypeTechniquePassStatesDepthTestEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesDepthTestEnable"
+    )
+    dither_enable = Every["ProfileGlesTypeTechniquePassStatesDitherEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesDitherEnable"
+    )
+    fog_enable = Every["ProfileGlesTypeTechniquePassStatesFogEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesFogEnable"
+    )
+    light_enable = Every["ProfileGlesTypeTechniquePassStatesLightEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightEnable"
+    )
+    lighting_enable = Every["ProfileGlesTypeTechniquePassStatesLightingEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLightingEnable"
+    )
+    light_model_two_side_enable = Every[
+        "ProfileGlesTypeTechniquePassStatesLightModelTwoSideEnable"
+    ]("choice", "ProfileGlesTypeTechniquePassStatesLightModelTwoSideEnable")
+    line_smooth_enable = Every["ProfileGlesTypeTechniquePassStatesLineSmoothEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesLineSmoothEnable"
+    )
+    multisample_enable = Every["ProfileGlesTypeTechniquePassStatesMultisampleEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesMultisampleEnable"
+    )
+    normalize_enable = Every["ProfileGlesTypeTechniquePassStatesNormalizeEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesNormalizeEnable"
+    )
+    point_smooth_enable = Every["ProfileGlesTypeTechniquePassStatesPointSmoothEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesPointSmoothEnable"
+    )
+    polygon_offset_fill_enable = Every["ProfileGlesTypeTechniquePassStatesPolygonOffsetFillEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesPolygonOffsetFillEnable"
+    )
+    rescale_normal_enable = Every["ProfileGlesTypeTechniquePassStatesRescaleNormalEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesRescaleNormalEnable"
+    )
+    sample_alpha_to_coverage_enable = Every[
+        "ProfileGlesTypeTechniquePassStatesSampleAlphaToCoverageEnable"
+    ]("choice", "ProfileGlesTypeTechniquePassStatesSampleAlphaToCoverageEnable")
+    sample_alpha_to_one_enable = Every["ProfileGlesTypeTechniquePassStatesSampleAlphaToOneEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesSampleAlphaToOneEnable"
+    )
+    sample_coverage_enable = Every["ProfileGlesTypeTechniquePassStatesSampleCoverageEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesSampleCoverageEnable"
+    )
+    scissor_test_enable = Every["ProfileGlesTypeTechniquePassStatesScissorTestEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesScissorTestEnable"
+    )
+    stencil_test_enable = Every["ProfileGlesTypeTechniquePassStatesStencilTestEnable"](
+        "choice", "ProfileGlesTypeTechniquePassStatesStencilTestEnable"
+    )
 
     class Meta:
         global_type = False

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.fx_common import FxSourcesType
 from colladaphy_schema.fx_gl import (
     GlBlendEnum,
@@ -887,6 +888,28 @@ class Vec4:
 class Gles2NewparamTypeArray:
     """A type without a name in the schema: gles2_newparam_type_array."""
 
+    bool_value = Every["Bool"]("choice", "Bool")
+    bvec2 = Every["Bvec2"]("choice", "Bvec2")
+    bvec3 = Every["Bvec3"]("choice", "Bvec3")
+    bvec4 = Every["Bvec4"]("choice", "Bvec4")
+    float_value = Every["Float"]("choice", "Float")
+    vec2 = Every["Vec2"]("choice", "Vec2")
+    vec3 = Every["Vec3"]("choice", "Vec3")
+    vec4 = Every["Vec4"]("choice", "Vec4")
+    mat2 = Every["Mat2"]("choice", "Mat2")
+    mat3 = Every["Mat3"]("choice", "Mat3")
+    mat4 = Every["Mat4"]("choice", "Mat4")
+    int_value = Every["Int"]("choice", "Int")
+    ivec2 = Every["Ivec2"]("choice", "Ivec2")
+    ivec3 = Every["Ivec3"]("choice", "Ivec3")
+    ivec4 = Every["Ivec4"]("choice", "Ivec4")
+    sampler2_d = Every["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = Every["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = Every["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = Every["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    usertype = Every["Gles2NewparamTypeUsertype"]("choice", "Gles2NewparamTypeUsertype")
+    array = Every["Gles2NewparamTypeArray"]("choice", "Gles2NewparamTypeArray")
+
     class Meta:
         global_type = False
 
@@ -1604,6 +1627,30 @@ class Gles2PassTypeStatesStencilOpZpass(Stated):
 class Gles2ProgramTypeBindUniformArray:
     """A type without a name in the schema: gles2_program_type_bind_uniform_array."""
 
+    bool_value = Every["Bool"]("choice", "Bool")
+    bvec2 = Every["Bvec2"]("choice", "Bvec2")
+    bvec3 = Every["Bvec3"]("choice", "Bvec3")
+    bvec4 = Every["Bvec4"]("choice", "Bvec4")
+    float_value = Every["Float"]("choice", "Float")
+    vec2 = Every["Vec2"]("choice", "Vec2")
+    vec3 = Every["Vec3"]("choice", "Vec3")
+    vec4 = Every["Vec4"]("choice", "Vec4")
+    mat2 = Every["Mat2"]("choice", "Mat2")
+    mat3 = Every["Mat3"]("choice", "Mat3")
+    mat4 = Every["Mat4"]("choice", "Mat4")
+    int_value = Every["Int"]("choice", "Int")
+    ivec2 = Every["Ivec2"]("choice", "Ivec2")
+    ivec3 = Every["Ivec3"]("choice", "Ivec3")
+    ivec4 = Every["Ivec4"]("choice", "Ivec4")
+    sampler2_d = Every["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = Every["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = Every["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = Every["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    usertype = Every["Gles2ProgramTypeBindUniformUsertype"](
+        "choice", "Gles2ProgramTypeBindUniformUsertype"
+    )
+    array = Every["Gles2ProgramTypeBindUniformArray"]("choice", "Gles2ProgramTypeBindUniformArray")
+
     class Meta:
         global_type = False
 
@@ -1773,6 +1820,28 @@ class Gles2ShaderTypeSources(FxSourcesType):
 @dataclass(slots=True, kw_only=True)
 class Gles2NewparamType:
     """The type gles2_newparam_type."""
+
+    bool_value = One["Bool"]("choice", "Bool")
+    bvec2 = One["Bvec2"]("choice", "Bvec2")
+    bvec3 = One["Bvec3"]("choice", "Bvec3")
+    bvec4 = One["Bvec4"]("choice", "Bvec4")
+    float_value = One["Float"]("choice", "Float")
+    vec2 = One["Vec2"]("choice", "Vec2")
+    vec3 = One["Vec3"]("choice", "Vec3")
+    vec4 = One["Vec4"]("choice", "Vec4")
+    mat2 = One["Mat2"]("choice", "Mat2")
+    mat3 = One["Mat3"]("choice", "Mat3")
+    mat4 = One["Mat4"]("choice", "Mat4")
+    int_value = One["Int"]("choice", "Int")
+    ivec2 = One["Ivec2"]("choice", "Ivec2")
+    ivec3 = One["Ivec3"]("choice", "Ivec3")
+    ivec4 = One["Ivec4"]("choice", "Ivec4")
+    sampler2_d = One["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = One["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = One["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = One["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    usertype = One["Gles2NewparamTypeUsertype"]("choice", "Gles2NewparamTypeUsertype")
+    array = One["Gles2NewparamTypeArray"]("choice", "Gles2NewparamTypeArray")
 
     class Meta:
         name = "gles2_newparam_type"
@@ -1950,6 +2019,28 @@ class Gles2NewparamType:
 @dataclass(slots=True, kw_only=True)
 class Gles2NewparamTypeUsertypeSetparam:
     """A type without a name in the schema: gles2_newparam_type_usertype_setparam."""
+
+    bool_value = Every["Bool"]("choice", "Bool")
+    bvec2 = Every["Bvec2"]("choice", "Bvec2")
+    bvec3 = Every["Bvec3"]("choice", "Bvec3")
+    bvec4 = Every["Bvec4"]("choice", "Bvec4")
+    float_value = Every["Float"]("choice", "Float")
+    vec2 = Every["Vec2"]("choice", "Vec2")
+    vec3 = Every["Vec3"]("choice", "Vec3")
+    vec4 = Every["Vec4"]("choice", "Vec4")
+    mat2 = Every["Mat2"]("choice", "Mat2")
+    mat3 = Every["Mat3"]("choice", "Mat3")
+    mat4 = Every["Mat4"]("choice", "Mat4")
+    int_value = Every["Int"]("choice", "Int")
+    ivec2 = Every["Ivec2"]("choice", "Ivec2")
+    ivec3 = Every["Ivec3"]("choice", "Ivec3")
+    ivec4 = Every["Ivec4"]("choice", "Ivec4")
+    sampler2_d = Every["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = Every["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = Every["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = Every["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    usertype = Every["Gles2NewparamTypeUsertype"]("choice", "Gles2NewparamTypeUsertype")
+    array = Every["Gles2NewparamTypeArray"]("choice", "Gles2NewparamTypeArray")
 
     class Meta:
         global_type = False
@@ -2322,6 +2413,31 @@ class Gles2PassTypeStatesStencilOpSeparate:
 class Gles2ProgramTypeBindUniform:
     """A type without a name in the schema: gles2_program_type_bind_uniform."""
 
+    param = One["Gles2ProgramTypeBindUniformParam"]("choice", "Gles2ProgramTypeBindUniformParam")
+    bool_value = One["Bool"]("choice", "Bool")
+    bvec2 = One["Bvec2"]("choice", "Bvec2")
+    bvec3 = One["Bvec3"]("choice", "Bvec3")
+    bvec4 = One["Bvec4"]("choice", "Bvec4")
+    float_value = One["Float"]("choice", "Float")
+    vec2 = One["Vec2"]("choice", "Vec2")
+    vec3 = One["Vec3"]("choice", "Vec3")
+    vec4 = One["Vec4"]("choice", "Vec4")
+    mat2 = One["Mat2"]("choice", "Mat2")
+    mat3 = One["Mat3"]("choice", "Mat3")
+    mat4 = One["Mat4"]("choice", "Mat4")
+    int_value = One["Int"]("choice", "Int")
+    ivec2 = One["Ivec2"]("choice", "Ivec2")
+    ivec3 = One["Ivec3"]("choice", "Ivec3")
+    ivec4 = One["Ivec4"]("choice", "Ivec4")
+    sampler2_d = One["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = One["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = One["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = One["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    usertype = One["Gles2ProgramTypeBindUniformUsertype"](
+        "choice", "Gles2ProgramTypeBindUniformUsertype"
+    )
+    array = One["Gles2ProgramTypeBindUniformArray"]("choice", "Gles2ProgramTypeBindUniformArray")
+
     class Meta:
         global_type = False
 
@@ -2483,6 +2599,30 @@ class Gles2ProgramTypeBindUniform:
 @dataclass(slots=True, kw_only=True)
 class Gles2ProgramTypeBindUniformUsertypeSetparam:
     """A type without a name in the schema: gles2_program_type_bind_uniform_usertype_setparam."""
+
+    bool_value = Every["Bool"]("choice", "Bool")
+    bvec2 = Every["Bvec2"]("choice", "Bvec2")
+    bvec3 = Every["Bvec3"]("choice", "Bvec3")
+    bvec4 = Every["Bvec4"]("choice", "Bvec4")
+    float_value = Every["Float"]("choice", "Float")
+    vec2 = Every["Vec2"]("choice", "Vec2")
+    vec3 = Every["Vec3"]("choice", "Vec3")
+    vec4 = Every["Vec4"]("choice", "Vec4")
+    mat2 = Every["Mat2"]("choice", "Mat2")
+    mat3 = Every["Mat3"]("choice", "Mat3")
+    mat4 = Every["Mat4"]("choice", "Mat4")
+    int_value = Every["Int"]("choice", "Int")
+    ivec2 = Every["Ivec2"]("choice", "Ivec2")
+    ivec3 = Every["Ivec3"]("choice", "Ivec3")
+    ivec4 = Every["Ivec4"]("choice", "Ivec4")
+    sampler2_d = Every["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = Every["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = Every["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_depth = Every["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    usertype = Every["Gles2ProgramTypeBindUniformUsertype"](
+        "choice", "Gles2ProgramTypeBindUniformUsertype"
+    )
+    array = Every["Gles2ProgramTypeBindUniformArray"]("choice", "Gles2ProgramTypeBindUniformArray")
 
     class Meta:
         global_type = False
@@ -2672,6 +2812,79 @@ class Gles2ShaderType:
 @dataclass(slots=True, kw_only=True)
 class Gles2PassTypeStates:
     """A type without a name in the schema: gles2_pass_type_states."""
+
+    blend_color = Every["Gles2PassTypeStatesBlendColor"]("choice", "Gles2PassTypeStatesBlendColor")
+    blend_equation = Every["Gles2PassTypeStatesBlendEquation"](
+        "choice", "Gles2PassTypeStatesBlendEquation"
+    )
+    blend_equation_separate = Every["Gles2PassTypeStatesBlendEquationSeparate"](
+        "choice", "Gles2PassTypeStatesBlendEquationSeparate"
+    )
+    blend_func = Every["Gles2PassTypeStatesBlendFunc"]("choice", "Gles2PassTypeStatesBlendFunc")
+    blend_func_separate = Every["Gles2PassTypeStatesBlendFuncSeparate"](
+        "choice", "Gles2PassTypeStatesBlendFuncSeparate"
+    )
+    color_mask = Every["Gles2PassTypeStatesColorMask"]("choice", "Gles2PassTypeStatesColorMask")
+    cull_face = Every["Gles2PassTypeStatesCullFace"]("choice", "Gles2PassTypeStatesCullFace")
+    depth_func = Every["Gles2PassTypeStatesDepthFunc"]("choice", "Gles2PassTypeStatesDepthFunc")
+    depth_mask = Every["Gles2PassTypeStatesDepthMask"]("choice", "Gles2PassTypeStatesDepthMask")
+    depth_range = Every["Gles2PassTypeStatesDepthRange"]("choice", "Gles2PassTypeStatesDepthRange")
+    front_face = Every["Gles2PassTypeStatesFrontFace"]("choice", "Gles2PassTypeStatesFrontFace")
+    line_width = Every["Gles2PassTypeStatesLineWidth"]("choice", "Gles2PassTypeStatesLineWidth")
+    polygon_offset = Every["Gles2PassTypeStatesPolygonOffset"](
+        "choice", "Gles2PassTypeStatesPolygonOffset"
+    )
+    point_size = Every["Gles2PassTypeStatesPointSize"]("choice", "Gles2PassTypeStatesPointSize")
+    sample_coverage = Every["Gles2PassTypeStatesSampleCoverage"](
+        "choice", "Gles2PassTypeStatesSampleCoverage"
+    )
+    scissor = Every["Gles2PassTypeStatesScissor"]("choice", "Gles2PassTypeStatesScissor")
+    stencil_func = Every["Gles2PassTypeStatesStencilFunc"](
+        "choice", "Gles2PassTypeStatesStencilFunc"
+    )
+    stencil_func_separate = Every["Gles2PassTypeStatesStencilFuncSeparate"](
+        "choice", "Gles2PassTypeStatesStencilFuncSeparate"
+    )
+    stencil_mask = Every["Gles2PassTypeStatesStencilMask"](
+        "choice", "Gles2PassTypeStatesStencilMask"
+    )
+    stencil_mask_separate = Every["Gles2PassTypeStatesStencilMaskSeparate"](
+        "choice", "Gles2PassTypeStatesStencilMaskSeparate"
+    )
+    stencil_op = Every["Gles2PassTypeStatesStencilOp"]("choice", "Gles2PassTypeStatesStencilOp")
+    stencil_op_separate = Every["Gles2PassTypeStatesStencilOpSeparate"](
+        "choice", "Gles2PassTypeStatesStencilOpSeparate"
+    )
+    blend_enable = Every["Gles2PassTypeStatesBlendEnable"](
+        "choice", "Gles2PassTypeStatesBlendEnable"
+    )
+    cull_face_enable = Every["Gles2PassTypeStatesCullFaceEnable"](
+        "choice", "Gles2PassTypeStatesCullFaceEnable"
+    )
+    depth_test_enable = Every["Gles2PassTypeStatesDepthTestEnable"](
+        "choice", "Gles2PassTypeStatesDepthTestEnable"
+    )
+    dither_enable = Every["Gles2PassTypeStatesDitherEnable"](
+        "choice", "Gles2PassTypeStatesDitherEnable"
+    )
+    polygon_offset_fill_enable = Every["Gles2PassTypeStatesPolygonOffsetFillEnable"](
+        "choice", "Gles2PassTypeStatesPolygonOffsetFillEnable"
+    )
+    point_size_enable = Every["Gles2PassTypeStatesPointSizeEnable"](
+        "choice", "Gles2PassTypeStatesPointSizeEnable"
+    )
+    sample_alpha_to_coverage_enable = Every["Gles2PassTypeStatesSampleAlphaToCoverageEnable"](
+        "choice", "Gles2PassTypeStatesSampleAlphaToCoverageEnable"
+    )
+    sample_coverage_enable = Every["Gles2PassTypeStatesSampleCoverageEnable"](
+        "choice", "Gles2PassTypeStatesSampleCoverageEnable"
+    )
+    scissor_test_enable = Every["Gles2PassTypeStatesScissorTestEnable"](
+        "choice", "Gles2PassTypeStatesScissorTestEnable"
+    )
+    stencil_test_enable = Every["Gles2PassTypeStatesStencilTestEnable"](
+        "choice", "Gles2PassTypeStatesStencilTestEnable"
+    )
 
     class Meta:
         global_type = False
@@ -3027,6 +3240,9 @@ class ProfileGles2TypeTechnique:
 @dataclass(slots=True, kw_only=True)
 class ProfileGles2Type(Stated):
     """The type profile_gles2_type."""
+
+    include = Every["FxIncludeType"]("include_or_code", "FxIncludeType")
+    code = Every["FxCodeType"]("include_or_code", "FxCodeType")
 
     class Meta:
         name = "profile_gles2_type"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.linking import Stated
 
 if TYPE_CHECKING:
@@ -160,6 +161,29 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 @dataclass(slots=True, kw_only=True)
 class GlslArrayType:
     """The type glsl_array_type."""
+
+    bool_value = Every["Bool"]("choice", "Bool")
+    bool2 = Every["Bool2"]("choice", "Bool2")
+    bool3 = Every["Bool3"]("choice", "Bool3")
+    bool4 = Every["Bool4"]("choice", "Bool4")
+    float_value = Every["Float"]("choice", "Float")
+    float2 = Every["Float2"]("choice", "Float2")
+    float3 = Every["Float3"]("choice", "Float3")
+    float4 = Every["Float4"]("choice", "Float4")
+    float2x2 = Every["Float2X2"]("choice", "Float2X2")
+    float3x3 = Every["Float3X3"]("choice", "Float3X3")
+    float4x4 = Every["Float4X4"]("choice", "Float4X4")
+    int_value = Every["Int"]("choice", "Int")
+    int2 = Every["Int2"]("choice", "Int2")
+    int3 = Every["Int3"]("choice", "Int3")
+    int4 = Every["Int4"]("choice", "Int4")
+    sampler1_d = Every["FxSampler1DType"]("choice", "FxSampler1DType")
+    sampler2_d = Every["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = Every["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = Every["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_rect = Every["FxSamplerRectType"]("choice", "FxSamplerRectType")
+    sampler_depth = Every["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    array = Every["GlslArrayType"]("choice", "GlslArrayType")
 
     class Meta:
         name = "glsl_array_type"
@@ -356,6 +380,319 @@ class GlslProgramTypeBindUniformParam:
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslTypeTechniquePassStates:
     """A type without a name in the schema: profile_glsl_type_technique_pass_states."""
+
+    alpha_func = Every["ProfileGlslTypeTechniquePassStatesAlphaFunc"](
+        "choice", "ProfileGlslTypeTechniquePassStatesAlphaFunc"
+    )
+    blend_func = Every["ProfileGlslTypeTechniquePassStatesBlendFunc"](
+        "choice", "ProfileGlslTypeTechniquePassStatesBlendFunc"
+    )
+    blend_func_separate = Every["ProfileGlslTypeTechniquePassStatesBlendFuncSeparate"](
+        "choice", "ProfileGlslTypeTechniquePassStatesBlendFuncSeparate"
+    )
+    blend_equation = Every["ProfileGlslTypeTechniquePassStatesBlendEquation"](
+        "choice", "ProfileGlslTypeTechniquePassStatesBlendEquation"
+    )
+    blend_equation_separate = Every["ProfileGlslTypeTechniquePassStatesBlendEquationSeparate"](
+        "choice", "ProfileGlslTypeTechniquePassStatesBlendEquationSeparate"
+    )
+    color_material = Every["ProfileGlslTypeTechniquePassStatesColorMaterial"](
+        "choice", "ProfileGlslTypeTechniquePassStatesColorMaterial"
+    )
+    cull_face = Every["ProfileGlslTypeTechniquePassStatesCullFace"](
+        "choice", "ProfileGlslTypeTechniquePassStatesCullFace"
+    )
+    depth_func = Every["ProfileGlslTypeTechniquePassStatesDepthFunc"](
+        "choice", "ProfileGlslTypeTechniquePassStatesDepthFunc"
+    )
+    fog_mode = Every["ProfileGlslTypeTechniquePassStatesFogMode"](
+        "choice", "ProfileGlslTypeTechniquePassStatesFogMode"
+    )
+    fog_coord_src = Every["ProfileGlslTypeTechniquePassStatesFogCoordSrc"](
+        "choice", "ProfileGlslTypeTechniquePassStatesFogCoordSrc"
+    )
+    front_face = Every["ProfileGlslTypeTechniquePassStatesFrontFace"](
+        "choice", "ProfileGlslTypeTechniquePassStatesFrontFace"
+    )
+    light_model_color_control = Every["ProfileGlslTypeTechniquePassStatesLightModelColorControl"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightModelColorControl"
+    )
+    logic_op = Every["ProfileGlslTypeTechniquePassStatesLogicOp"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLogicOp"
+    )
+    polygon_mode = Every["ProfileGlslTypeTechniquePassStatesPolygonMode"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPolygonMode"
+    )
+    shade_model = Every["ProfileGlslTypeTechniquePassStatesShadeModel"](
+        "choice", "ProfileGlslTypeTechniquePassStatesShadeModel"
+    )
+    stencil_func = Every["ProfileGlslTypeTechniquePassStatesStencilFunc"](
+        "choice", "ProfileGlslTypeTechniquePassStatesStencilFunc"
+    )
+    stencil_op = Every["ProfileGlslTypeTechniquePassStatesStencilOp"](
+        "choice", "ProfileGlslTypeTechniquePassStatesStencilOp"
+    )
+    stencil_func_separate = Every["ProfileGlslTypeTechniquePassStatesStencilFuncSeparate"](
+        "choice", "ProfileGlslTypeTechniquePassStatesStencilFuncSeparate"
+    )
+    stencil_op_separate = Every["ProfileGlslTypeTechniquePassStatesStencilOpSeparate"](
+        "choice", "ProfileGlslTypeTechniquePassStatesStencilOpSeparate"
+    )
+    stencil_mask_separate = Every["ProfileGlslTypeTechniquePassStatesStencilMaskSeparate"](
+        "choice", "ProfileGlslTypeTechniquePassStatesStencilMaskSeparate"
+    )
+    light_enable = Every["ProfileGlslTypeTechniquePassStatesLightEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightEnable"
+    )
+    light_ambient = Every["ProfileGlslTypeTechniquePassStatesLightAmbient"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightAmbient"
+    )
+    light_diffuse = Every["ProfileGlslTypeTechniquePassStatesLightDiffuse"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightDiffuse"
+    )
+    light_specular = Every["ProfileGlslTypeTechniquePassStatesLightSpecular"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightSpecular"
+    )
+    light_position = Every["ProfileGlslTypeTechniquePassStatesLightPosition"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightPosition"
+    )
+    light_constant_attenuation = Every[
+        "ProfileGlslTypeTechniquePassStatesLightConstantAttenuation"
+    ]("choice", "ProfileGlslTypeTechniquePassStatesLightConstantAttenuation")
+    light_linear_attenuation = Every["ProfileGlslTypeTechniquePassStatesLightLinearAttenuation"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightLinearAttenuation"
+    )
+    light_quadratic_attenuation = Every[
+        "ProfileGlslTypeTechniquePassStatesLightQuadraticAttenuation"
+    ]("choice", "ProfileGlslTypeTechniquePassStatesLightQuadraticAttenuation")
+    light_spot_cutoff = Every["ProfileGlslTypeTechniquePassStatesLightSpotCutoff"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightSpotCutoff"
+    )
+    light_spot_direction = Every["ProfileGlslTypeTechniquePassStatesLightSpotDirection"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightSpotDirection"
+    )
+    light_spot_exponent = Every["ProfileGlslTypeTechniquePassStatesLightSpotExponent"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightSpotExponent"
+    )
+    texture1_d = Every["ProfileGlslTypeTechniquePassStatesTexture1D"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTexture1D"
+    )
+    texture2_d = Every["ProfileGlslTypeTechniquePassStatesTexture2D"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTexture2D"
+    )
+    texture3_d = Every["ProfileGlslTypeTechniquePassStatesTexture3D"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTexture3D"
+    )
+    texture_cube = Every["ProfileGlslTypeTechniquePassStatesTextureCube"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTextureCube"
+    )
+    texture_rect = Every["ProfileGlslTypeTechniquePassStatesTextureRect"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTextureRect"
+    )
+    texture_depth = Every["ProfileGlslTypeTechniquePassStatesTextureDepth"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTextureDepth"
+    )
+    texture1_d_enable = Every["ProfileGlslTypeTechniquePassStatesTexture1DEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTexture1DEnable"
+    )
+    texture2_d_enable = Every["ProfileGlslTypeTechniquePassStatesTexture2DEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTexture2DEnable"
+    )
+    texture3_d_enable = Every["ProfileGlslTypeTechniquePassStatesTexture3DEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTexture3DEnable"
+    )
+    texture_cube_enable = Every["ProfileGlslTypeTechniquePassStatesTextureCubeEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTextureCubeEnable"
+    )
+    texture_rect_enable = Every["ProfileGlslTypeTechniquePassStatesTextureRectEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTextureRectEnable"
+    )
+    texture_depth_enable = Every["ProfileGlslTypeTechniquePassStatesTextureDepthEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTextureDepthEnable"
+    )
+    texture_env_color = Every["ProfileGlslTypeTechniquePassStatesTextureEnvColor"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTextureEnvColor"
+    )
+    texture_env_mode = Every["ProfileGlslTypeTechniquePassStatesTextureEnvMode"](
+        "choice", "ProfileGlslTypeTechniquePassStatesTextureEnvMode"
+    )
+    clip_plane = Every["ProfileGlslTypeTechniquePassStatesClipPlane"](
+        "choice", "ProfileGlslTypeTechniquePassStatesClipPlane"
+    )
+    clip_plane_enable = Every["ProfileGlslTypeTechniquePassStatesClipPlaneEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesClipPlaneEnable"
+    )
+    blend_color = Every["ProfileGlslTypeTechniquePassStatesBlendColor"](
+        "choice", "ProfileGlslTypeTechniquePassStatesBlendColor"
+    )
+    color_mask = Every["ProfileGlslTypeTechniquePassStatesColorMask"](
+        "choice", "ProfileGlslTypeTechniquePassStatesColorMask"
+    )
+    depth_bounds = Every["ProfileGlslTypeTechniquePassStatesDepthBounds"](
+        "choice", "ProfileGlslTypeTechniquePassStatesDepthBounds"
+    )
+    depth_mask = Every["ProfileGlslTypeTechniquePassStatesDepthMask"](
+        "choice", "ProfileGlslTypeTechniquePassStatesDepthMask"
+    )
+    depth_range = Every["ProfileGlslTypeTechniquePassStatesDepthRange"](
+        "choice", "ProfileGlslTypeTechniquePassStatesDepthRange"
+    )
+    fog_density = Every["ProfileGlslTypeTechniquePassStatesFogDensity"](
+        "choice", "ProfileGlslTypeTechniquePassStatesFogDensity"
+    )
+    fog_start = Every["ProfileGlslTypeTechniquePassStatesFogStart"](
+        "choice", "ProfileGlslTypeTechniquePassStatesFogStart"
+    )
+    fog_end = Every["ProfileGlslTypeTechniquePassStatesFogEnd"](
+        "choice", "ProfileGlslTypeTechniquePassStatesFogEnd"
+    )
+    fog_color = Every["ProfileGlslTypeTechniquePassStatesFogColor"](
+        "choice", "ProfileGlslTypeTechniquePassStatesFogColor"
+    )
+    light_model_ambient = Every["ProfileGlslTypeTechniquePassStatesLightModelAmbient"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightModelAmbient"
+    )
+    lighting_enable = Every["ProfileGlslTypeTechniquePassStatesLightingEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLightingEnable"
+    )
+    line_stipple = Every["ProfileGlslTypeTechniquePassStatesLineStipple"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLineStipple"
+    )
+    line_width = Every["ProfileGlslTypeTechniquePassStatesLineWidth"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLineWidth"
+    )
+    material_ambient = Every["ProfileGlslTypeTechniquePassStatesMaterialAmbient"](
+        "choice", "ProfileGlslTypeTechniquePassStatesMaterialAmbient"
+    )
+    material_diffuse = Every["ProfileGlslTypeTechniquePassStatesMaterialDiffuse"](
+        "choice", "ProfileGlslTypeTechniquePassStatesMaterialDiffuse"
+    )
+    material_emission = Every["ProfileGlslTypeTechniquePassStatesMaterialEmission"](
+        "choice", "ProfileGlslTypeTechniquePassStatesMaterialEmission"
+    )
+    material_shininess = Every["ProfileGlslTypeTechniquePassStatesMaterialShininess"](
+        "choice", "ProfileGlslTypeTechniquePassStatesMaterialShininess"
+    )
+    material_specular = Every["ProfileGlslTypeTechniquePassStatesMaterialSpecular"](
+        "choice", "ProfileGlslTypeTechniquePassStatesMaterialSpecular"
+    )
+    model_view_matrix = Every["ProfileGlslTypeTechniquePassStatesModelViewMatrix"](
+        "choice", "ProfileGlslTypeTechniquePassStatesModelViewMatrix"
+    )
+    point_distance_attenuation = Every[
+        "ProfileGlslTypeTechniquePassStatesPointDistanceAttenuation"
+    ]("choice", "ProfileGlslTypeTechniquePassStatesPointDistanceAttenuation")
+    point_fade_threshold_size = Every["ProfileGlslTypeTechniquePassStatesPointFadeThresholdSize"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPointFadeThresholdSize"
+    )
+    point_size = Every["ProfileGlslTypeTechniquePassStatesPointSize"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPointSize"
+    )
+    point_size_min = Every["ProfileGlslTypeTechniquePassStatesPointSizeMin"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPointSizeMin"
+    )
+    point_size_max = Every["ProfileGlslTypeTechniquePassStatesPointSizeMax"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPointSizeMax"
+    )
+    polygon_offset = Every["ProfileGlslTypeTechniquePassStatesPolygonOffset"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPolygonOffset"
+    )
+    projection_matrix = Every["ProfileGlslTypeTechniquePassStatesProjectionMatrix"](
+        "choice", "ProfileGlslTypeTechniquePassStatesProjectionMatrix"
+    )
+    scissor = Every["ProfileGlslTypeTechniquePassStatesScissor"](
+        "choice", "ProfileGlslTypeTechniquePassStatesScissor"
+    )
+    stencil_mask = Every["ProfileGlslTypeTechniquePassStatesStencilMask"](
+        "choice", "ProfileGlslTypeTechniquePassStatesStencilMask"
+    )
+    alpha_test_enable = Every["ProfileGlslTypeTechniquePassStatesAlphaTestEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesAlphaTestEnable"
+    )
+    blend_enable = Every["ProfileGlslTypeTechniquePassStatesBlendEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesBlendEnable"
+    )
+    color_logic_op_enable = Every["ProfileGlslTypeTechniquePassStatesColorLogicOpEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesColorLogicOpEnable"
+    )
+    color_material_enable = Every["ProfileGlslTypeTechniquePassStatesColorMaterialEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesColorMaterialEnable"
+    )
+    cull_face_enable = Every["ProfileGlslTypeTechniquePassStatesCullFaceEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesCullFaceEnable"
+    )
+    depth_bounds_enable = Every["ProfileGlslTypeTechniquePassStatesDepthBoundsEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesDepthBoundsEnable"
+    )
+    depth_clamp_enable = Every["ProfileGlslTypeTechniquePassStatesDepthClampEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesDepthClampEnable"
+    )
+    depth_test_enable = Every["ProfileGlslTypeTechniquePassStatesDepthTestEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesDepthTestEnable"
+    )
+    dither_enable = Every["ProfileGlslTypeTechniquePassStatesDitherEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesDitherEnable"
+    )
+    fog_enable = Every["ProfileGlslTypeTechniquePassStatesFogEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesFogEnable"
+    )
+    light_model_local_viewer_enable = Every[
+        "ProfileGlslTypeTechniquePassStatesLightModelLocalViewerEnable"
+    ]("choice", "ProfileGlslTypeTechniquePassStatesLightModelLocalViewerEnable")
+    light_model_two_side_enable = Every[
+        "ProfileGlslTypeTechniquePassStatesLightModelTwoSideEnable"
+    ]("choice", "ProfileGlslTypeTechniquePassStatesLightModelTwoSideEnable")
+    line_smooth_enable = Every["ProfileGlslTypeTechniquePassStatesLineSmoothEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLineSmoothEnable"
+    )
+    line_stipple_enable = Every["ProfileGlslTypeTechniquePassStatesLineStippleEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLineStippleEnable"
+    )
+    logic_op_enable = Every["ProfileGlslTypeTechniquePassStatesLogicOpEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesLogicOpEnable"
+    )
+    multisample_enable = Every["ProfileGlslTypeTechniquePassStatesMultisampleEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesMultisampleEnable"
+    )
+    normalize_enable = Every["ProfileGlslTypeTechniquePassStatesNormalizeEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesNormalizeEnable"
+    )
+    point_smooth_enable = Every["ProfileGlslTypeTechniquePassStatesPointSmoothEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPointSmoothEnable"
+    )
+    polygon_offset_fill_enable = Every["ProfileGlslTypeTechniquePassStatesPolygonOffsetFillEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPolygonOffsetFillEnable"
+    )
+    polygon_offset_line_enable = Every["ProfileGlslTypeTechniquePassStatesPolygonOffsetLineEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPolygonOffsetLineEnable"
+    )
+    polygon_offset_point_enable = Every[
+        "ProfileGlslTypeTechniquePassStatesPolygonOffsetPointEnable"
+    ]("choice", "ProfileGlslTypeTechniquePassStatesPolygonOffsetPointEnable")
+    polygon_smooth_enable = Every["ProfileGlslTypeTechniquePassStatesPolygonSmoothEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPolygonSmoothEnable"
+    )
+    polygon_stipple_enable = Every["ProfileGlslTypeTechniquePassStatesPolygonStippleEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesPolygonStippleEnable"
+    )
+    rescale_normal_enable = Every["ProfileGlslTypeTechniquePassStatesRescaleNormalEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesRescaleNormalEnable"
+    )
+    sample_alpha_to_coverage_enable = Every[
+        "ProfileGlslTypeTechniquePassStatesSampleAlphaToCoverageEnable"
+    ]("choice", "ProfileGlslTypeTechniquePassStatesSampleAlphaToCoverageEnable")
+    sample_alpha_to_one_enable = Every["ProfileGlslTypeTechniquePassStatesSampleAlphaToOneEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesSampleAlphaToOneEnable"
+    )
+    sample_coverage_enable = Every["ProfileGlslTypeTechniquePassStatesSampleCoverageEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesSampleCoverageEnable"
+    )
+    scissor_test_enable = Every["ProfileGlslTypeTechniquePassStatesScissorTestEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesScissorTestEnable"
+    )
+    stencil_test_enable = Every["ProfileGlslTypeTechniquePassStatesStencilTestEnable"](
+        "choice", "ProfileGlslTypeTechniquePassStatesStencilTestEnable"
+    )
 
     class Meta:
         global_type = False
@@ -1011,6 +1348,29 @@ class ProfileGlslTypeTechniquePassStates:
 class GlslNewparamType:
     """The type glsl_newparam_type."""
 
+    bool_value = One["Bool"]("choice", "Bool")
+    bool2 = One["Bool2"]("choice", "Bool2")
+    bool3 = One["Bool3"]("choice", "Bool3")
+    bool4 = One["Bool4"]("choice", "Bool4")
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    float2x2 = One["Float2X2"]("choice", "Float2X2")
+    float3x3 = One["Float3X3"]("choice", "Float3X3")
+    float4x4 = One["Float4X4"]("choice", "Float4X4")
+    int_value = One["Int"]("choice", "Int")
+    int2 = One["Int2"]("choice", "Int2")
+    int3 = One["Int3"]("choice", "Int3")
+    int4 = One["Int4"]("choice", "Int4")
+    sampler1_d = One["FxSampler1DType"]("choice", "FxSampler1DType")
+    sampler2_d = One["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = One["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = One["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_rect = One["FxSamplerRectType"]("choice", "FxSamplerRectType")
+    sampler_depth = One["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    array = One["GlslArrayType"]("choice", "GlslArrayType")
+
     class Meta:
         name = "glsl_newparam_type"
 
@@ -1193,6 +1553,30 @@ class GlslNewparamType:
 @dataclass(slots=True, kw_only=True)
 class GlslProgramTypeBindUniform:
     """A type without a name in the schema: glsl_program_type_bind_uniform."""
+
+    param = One["GlslProgramTypeBindUniformParam"]("choice", "GlslProgramTypeBindUniformParam")
+    bool_value = One["Bool"]("choice", "Bool")
+    bool2 = One["Bool2"]("choice", "Bool2")
+    bool3 = One["Bool3"]("choice", "Bool3")
+    bool4 = One["Bool4"]("choice", "Bool4")
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    float2x2 = One["Float2X2"]("choice", "Float2X2")
+    float3x3 = One["Float3X3"]("choice", "Float3X3")
+    float4x4 = One["Float4X4"]("choice", "Float4X4")
+    int_value = One["Int"]("choice", "Int")
+    int2 = One["Int2"]("choice", "Int2")
+    int3 = One["Int3"]("choice", "Int3")
+    int4 = One["Int4"]("choice", "Int4")
+    sampler1_d = One["FxSampler1DType"]("choice", "FxSampler1DType")
+    sampler2_d = One["FxSampler2DType"]("choice", "FxSampler2DType")
+    sampler3_d = One["FxSampler3DType"]("choice", "FxSampler3DType")
+    sampler_cube = One["FxSamplerCubeType"]("choice", "FxSamplerCubeType")
+    sampler_rect = One["FxSamplerRectType"]("choice", "FxSamplerRectType")
+    sampler_depth = One["FxSamplerDepthType"]("choice", "FxSamplerDepthType")
+    array = One["GlslArrayType"]("choice", "GlslArrayType")
 
     class Meta:
         global_type = False
@@ -1576,6 +1960,9 @@ class ProfileGlslTypeTechnique:
 @dataclass(slots=True, kw_only=True)
 class ProfileGlslType(Stated):
     """The type profile_glsl_type."""
+
+    code = Every["FxCodeType"]("code_or_include", "FxCodeType")
+    include = Every["FxIncludeType"]("code_or_include", "FxIncludeType")
 
     class Meta:
         name = "profile_glsl_type"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every
 from colladaphy_schema.linking import Stated
 
 if TYPE_CHECKING:
@@ -663,6 +664,9 @@ class BindMaterialTypeTechniqueCommon:
 class PolygonsType:
     """The type polygons_type."""
 
+    p = Every["PType"]("p_or_ph", "PType")
+    ph = Every["PolygonsTypePh"]("p_or_ph", "PolygonsTypePh")
+
     class Meta:
         name = "polygons_type"
 
@@ -793,6 +797,14 @@ class BindMaterialType:
 class ConvexMeshType:
     """The type convex_mesh_type."""
 
+    lines = Every["LinesType"]("choice", "LinesType")
+    linestrips = Every["LinestripsType"]("choice", "LinestripsType")
+    polygons = Every["PolygonsType"]("choice", "PolygonsType")
+    polylist = Every["PolylistType"]("choice", "PolylistType")
+    triangles = Every["TrianglesType"]("choice", "TrianglesType")
+    trifans = Every["TrifansType"]("choice", "TrifansType")
+    tristrips = Every["TristripsType"]("choice", "TristripsType")
+
     class Meta:
         name = "convex_mesh_type"
 
@@ -879,6 +891,14 @@ class ConvexMeshType:
 @dataclass(slots=True, kw_only=True)
 class MeshType:
     """The type mesh_type."""
+
+    lines = Every["LinesType"]("choice", "LinesType")
+    linestrips = Every["LinestripsType"]("choice", "LinestripsType")
+    polygons = Every["PolygonsType"]("choice", "PolygonsType")
+    polylist = Every["PolylistType"]("choice", "PolylistType")
+    triangles = Every["TrianglesType"]("choice", "TrianglesType")
+    trifans = Every["TrifansType"]("choice", "TrifansType")
+    tristrips = Every["TristripsType"]("choice", "TristripsType")
 
     class Meta:
         name = "mesh_type"

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import One
+
 if TYPE_CHECKING:
     from colladaphy_schema.brep import BrepType
     from colladaphy_schema.core import AssetType, ExtraType
@@ -16,6 +18,11 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 @dataclass(slots=True, kw_only=True)
 class GeometryType:
     """The type geometry_type."""
+
+    convex_mesh = One["ConvexMeshType"]("choice", "ConvexMeshType")
+    mesh = One["MeshType"]("choice", "MeshType")
+    spline = One["SplineType"]("choice", "SplineType")
+    brep = One["BrepType"]("choice", "BrepType")
 
     class Meta:
         name = "geometry_type"

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
+from colladaphy_schema.choices import One
 from colladaphy_schema.core import InstanceWithExtraType
 from colladaphy_schema.linking import Stated
 
@@ -232,6 +233,8 @@ class ImageTypeRenderable:
 @dataclass(slots=True, kw_only=True)
 class ImageSourceType(Stated):
     """The type image_source_type."""
+
+    hex = One["ImageSourceTypeHex"]("ref_or_hex", "ImageSourceTypeHex")
 
     class Meta:
         name = "image_source_type"
@@ -520,6 +523,14 @@ class ImageTypeInitFrom(ImageSourceType):
 class ImageTypeCreate2D:
     """A type without a name in the schema: image_type_create_2d."""
 
+    size_exact = One["ImageTypeCreate2DSizeExact"](
+        "size_exact_or_size_ratio", "ImageTypeCreate2DSizeExact"
+    )
+    size_ratio = One["ImageTypeCreate2DSizeRatio"](
+        "size_exact_or_size_ratio", "ImageTypeCreate2DSizeRatio"
+    )
+    mips = One["ImageMipsType"]("mips_or_unnormalized", "ImageMipsType")
+
     class Meta:
         global_type = False
 
@@ -671,6 +682,11 @@ class ImageTypeCreateCube:
 @dataclass(slots=True, kw_only=True)
 class ImageType:
     """The type image_type."""
+
+    init_from = One["ImageTypeInitFrom"]("choice", "ImageTypeInitFrom")
+    create_2d = One["ImageTypeCreate2D"]("choice", "ImageTypeCreate2D")
+    create_3d = One["ImageTypeCreate3D"]("choice", "ImageTypeCreate3D")
+    create_cube = One["ImageTypeCreateCube"]("choice", "ImageTypeCreateCube")
 
     class Meta:
         name = "image_type"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.parameters import CommonIntOrParamType, CommonSidrefOrParamType
 
 if TYPE_CHECKING:
@@ -30,6 +31,9 @@ __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 @dataclass(slots=True, kw_only=True)
 class KinematicsFrameType:
     """The type kinematics_frame_type."""
+
+    translate = Every["TranslateType"]("translate_or_rotate", "TranslateType")
+    rotate = Every["RotateType"]("translate_or_rotate", "RotateType")
 
     class Meta:
         name = "kinematics_frame_type"
@@ -77,6 +81,8 @@ class KinematicsParamType:
 @dataclass(slots=True, kw_only=True)
 class KinematicsSetparamType:
     """The type kinematics_setparam_type."""
+
+    connect_param = One["KinematicsConnectParamType"]("choice", "KinematicsConnectParamType")
 
     class Meta:
         name = "kinematics_setparam_type"
@@ -167,6 +173,8 @@ class BindKinematicsModelType(CommonSidrefOrParamType):
 @dataclass(slots=True, kw_only=True)
 class KinematicsBindType:
     """The type kinematics_bind_type."""
+
+    param = One["KinematicsParamType"]("choice", "KinematicsParamType")
 
     class Meta:
         name = "kinematics_bind_type"
@@ -427,6 +435,11 @@ class InstanceKinematicsSceneType:
 @dataclass(slots=True, kw_only=True)
 class KinematicsAxisInfoType:
     """The type kinematics_axis_info_type."""
+
+    formula = Every["FormulaType"]("formula_or_instance_formula", "FormulaType")
+    instance_formula = Every["InstanceFormulaType"](
+        "formula_or_instance_formula", "InstanceFormulaType"
+    )
 
     class Meta:
         name = "kinematics_axis_info_type"
@@ -880,6 +893,9 @@ class MotionType:
 @dataclass(slots=True, kw_only=True)
 class ArticulatedSystemType:
     """The type articulated_system_type."""
+
+    kinematics = One["KinematicsType"]("kinematics_or_motion", "KinematicsType")
+    motion = One["MotionType"]("kinematics_or_motion", "MotionType")
 
     class Meta:
         name = "articulated_system_type"

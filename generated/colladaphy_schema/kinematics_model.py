@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ForwardRef
 
+from colladaphy_schema.choices import Every
 from colladaphy_schema.core import InstanceWithExtraType
 
 if TYPE_CHECKING:
@@ -112,6 +113,9 @@ class LimitsSubType:
 class LinkTypeAttachmentEnd:
     """A type without a name in the schema: link_type_attachment_end."""
 
+    rotate = Every["RotateType"]("rotate_or_translate", "RotateType")
+    translate = Every["TranslateType"]("rotate_or_translate", "TranslateType")
+
     class Meta:
         global_type = False
 
@@ -143,6 +147,9 @@ class LinkTypeAttachmentEnd:
 @dataclass(slots=True, kw_only=True)
 class LinkTypeAttachmentStart:
     """A type without a name in the schema: link_type_attachment_start."""
+
+    rotate = Every["RotateType"]("rotate_or_translate", "RotateType")
+    translate = Every["TranslateType"]("rotate_or_translate", "TranslateType")
 
     class Meta:
         global_type = False
@@ -237,6 +244,18 @@ class JointLimitsType:
 class LinkType:
     """The type link_type."""
 
+    rotate = Every["RotateType"]("rotate_or_translate", "RotateType")
+    translate = Every["TranslateType"]("rotate_or_translate", "TranslateType")
+    attachment_full = Every["LinkTypeAttachmentFull"](
+        "attachment_full_or_attachment_start_or_attachment_end", "LinkTypeAttachmentFull"
+    )
+    attachment_start = Every["LinkTypeAttachmentStart"](
+        "attachment_full_or_attachment_start_or_attachment_end", "LinkTypeAttachmentStart"
+    )
+    attachment_end = Every["LinkTypeAttachmentEnd"](
+        "attachment_full_or_attachment_start_or_attachment_end", "LinkTypeAttachmentEnd"
+    )
+
     class Meta:
         name = "link_type"
 
@@ -329,6 +348,9 @@ class AxisConstraintType:
 class LinkTypeAttachmentFull:
     """A type without a name in the schema: link_type_attachment_full."""
 
+    rotate = Every["RotateType"]("rotate_or_translate", "RotateType")
+    translate = Every["TranslateType"]("rotate_or_translate", "TranslateType")
+
     class Meta:
         global_type = False
 
@@ -383,6 +405,9 @@ class Revolute(AxisConstraintType):
 class JointType:
     """The type joint_type."""
 
+    prismatic = Every["Prismatic"]("prismatic_or_revolute", "Prismatic")
+    revolute = Every["Revolute"]("prismatic_or_revolute", "Revolute")
+
     class Meta:
         name = "joint_type"
 
@@ -434,6 +459,13 @@ class JointType:
 @dataclass(slots=True, kw_only=True)
 class KinematicsModelTechniqueType:
     """The type kinematics_model_technique_type."""
+
+    instance_joint = Every["InstanceJointType"]("instance_joint_or_joint", "InstanceJointType")
+    joint = Every["JointType"]("instance_joint_or_joint", "JointType")
+    formula = Every["FormulaType"]("formula_or_instance_formula", "FormulaType")
+    instance_formula = Every["InstanceFormulaType"](
+        "formula_or_instance_formula", "InstanceFormulaType"
+    )
 
     class Meta:
         name = "kinematics_model_technique_type"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ForwardRef
 
+from colladaphy_schema.choices import One
 from colladaphy_schema.linking import Stated
 
 if TYPE_CHECKING:
@@ -510,6 +511,35 @@ class InstanceEffectTypeSetparamSamplerStates(Stated):
 @dataclass(slots=True, kw_only=True)
 class InstanceEffectTypeSetparam:
     """A type without a name in the schema: instance_effect_type_setparam."""
+
+    bool_value = One["Bool"]("choice", "Bool")
+    bool2 = One["Bool2"]("choice", "Bool2")
+    bool3 = One["Bool3"]("choice", "Bool3")
+    bool4 = One["Bool4"]("choice", "Bool4")
+    int_value = One["Int"]("choice", "Int")
+    int2 = One["Int2"]("choice", "Int2")
+    int3 = One["Int3"]("choice", "Int3")
+    int4 = One["Int4"]("choice", "Int4")
+    float_value = One["Float"]("choice", "Float")
+    float2 = One["Float2"]("choice", "Float2")
+    float3 = One["Float3"]("choice", "Float3")
+    float4 = One["Float4"]("choice", "Float4")
+    float2x1 = One["Float2X1"]("choice", "Float2X1")
+    float2x2 = One["Float2X2"]("choice", "Float2X2")
+    float2x3 = One["Float2X3"]("choice", "Float2X3")
+    float2x4 = One["Float2X4"]("choice", "Float2X4")
+    float3x1 = One["Float3X1"]("choice", "Float3X1")
+    float3x2 = One["Float3X2"]("choice", "Float3X2")
+    float3x3 = One["Float3X3"]("choice", "Float3X3")
+    float3x4 = One["Float3X4"]("choice", "Float3X4")
+    float4x1 = One["Float4X1"]("choice", "Float4X1")
+    float4x2 = One["Float4X2"]("choice", "Float4X2")
+    float4x3 = One["Float4X3"]("choice", "Float4X3")
+    float4x4 = One["Float4X4"]("choice", "Float4X4")
+    sampler_image = One["InstanceImageType"]("choice", "InstanceImageType")
+    sampler_states = One["InstanceEffectTypeSetparamSamplerStates"](
+        "choice", "InstanceEffectTypeSetparamSamplerStates"
+    )
 
     class Meta:
         global_type = False

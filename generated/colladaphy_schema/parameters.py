@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from colladaphy_schema.choices import One
+
 __NAMESPACE__ = "http://www.collada.org/2008/03/COLLADASchema"
 
 
@@ -35,6 +37,8 @@ class KinematicsConnectParamType:
 class CommonBoolOrParamType:
     """The type common_bool_or_param_type."""
 
+    param = One["CommonParamType"]("bool_or_param", "CommonParamType")
+
     class Meta:
         name = "common_bool_or_param_type"
 
@@ -61,6 +65,8 @@ class CommonBoolOrParamType:
 @dataclass(slots=True, kw_only=True)
 class CommonFloat2OrParamType:
     """The type common_float2_or_param_type."""
+
+    param = One["CommonParamType"]("float2_or_param", "CommonParamType")
 
     class Meta:
         name = "common_float2_or_param_type"
@@ -92,6 +98,8 @@ class CommonFloat2OrParamType:
 class CommonFloatOrParamType:
     """The type common_float_or_param_type."""
 
+    param = One["CommonParamType"]("float_or_param", "CommonParamType")
+
     class Meta:
         name = "common_float_or_param_type"
 
@@ -119,6 +127,8 @@ class CommonFloatOrParamType:
 class CommonIntOrParamType:
     """The type common_int_or_param_type."""
 
+    param = One["CommonParamType"]("int_or_param", "CommonParamType")
+
     class Meta:
         name = "common_int_or_param_type"
 
@@ -145,6 +155,8 @@ class CommonIntOrParamType:
 @dataclass(slots=True, kw_only=True)
 class CommonSidrefOrParamType:
     """The type common_sidref_or_param_type."""
+
+    param = One["CommonParamType"]("sidref_or_param", "CommonParamType")
 
     class Meta:
         name = "common_sidref_or_param_type"

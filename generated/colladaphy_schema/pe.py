@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.linking import Stated
 
 __NAMESPACE__ = "urn:colladaphy:pe:1"
@@ -531,6 +532,9 @@ class Motion(MotionType):
 class RodType:
     """The type rod_type."""
 
+    radius = One["Radius"]("radius_or_radii", "Radius")
+    radii = One["Radii"]("radius_or_radii", "Radii")
+
     class Meta:
         name = "rod_type"
 
@@ -680,6 +684,13 @@ class World(WorldType):
 class ShapeType(Stated):
     """The type shape_type."""
 
+    plane = One["PlaneType"]("choice", "PlaneType")
+    sphere = One["SphereType"]("choice", "SphereType")
+    box = One["BoxType"]("choice", "BoxType")
+    capsule = One["Capsule"]("choice", "Capsule")
+    cylinder = One["Cylinder"]("choice", "Cylinder")
+    ellipsoid = One["EllipsoidType"]("choice", "EllipsoidType")
+
     class Meta:
         name = "shape_type"
 
@@ -793,6 +804,9 @@ class ShapeType(Stated):
 class UnionType(Stated):
     """The type union_type."""
 
+    shape = Every["ShapeType"]("shape_or_union", "ShapeType")
+    union = Every["UnionType"]("shape_or_union", "UnionType")
+
     class Meta:
         name = "union_type"
 
@@ -885,6 +899,9 @@ class UnionType(Stated):
 @dataclass(slots=True, kw_only=True)
 class BodyType(Stated):
     """The type body_type."""
+
+    shape = One["ShapeType"]("shape_or_union", "ShapeType")
+    union = One["UnionType"]("shape_or_union", "UnionType")
 
     class Meta:
         name = "body_type"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.core import InstanceWithExtraType
 from colladaphy_schema.linking import Stated
 
@@ -49,6 +50,9 @@ class InstanceRigidBodyTypeTechniqueCommonDynamic:
 @dataclass(slots=True, kw_only=True)
 class InstanceRigidBodyTypeTechniqueCommonMassFrame:
     """A type without a name in the schema: instance_rigid_body_type_technique_common_mass_frame."""
+
+    translate = Every["TranslateType"]("translate_or_rotate", "TranslateType")
+    rotate = Every["RotateType"]("translate_or_rotate", "RotateType")
 
     class Meta:
         global_type = False
@@ -108,6 +112,9 @@ class RigidBodyTypeTechniqueCommonDynamic:
 @dataclass(slots=True, kw_only=True)
 class RigidBodyTypeTechniqueCommonMassFrame:
     """A type without a name in the schema: rigid_body_type_technique_common_mass_frame."""
+
+    translate = Every["TranslateType"]("translate_or_rotate", "TranslateType")
+    rotate = Every["RotateType"]("translate_or_rotate", "RotateType")
 
     class Meta:
         global_type = False
@@ -345,6 +352,9 @@ class PhysicsSceneTypeTechniqueCommon:
 class RigidConstraintTypeAttachment:
     """A type without a name in the schema: rigid_constraint_type_attachment."""
 
+    translate = Every["TranslateType"]("translate_or_rotate", "TranslateType")
+    rotate = Every["RotateType"]("translate_or_rotate", "RotateType")
+
     class Meta:
         global_type = False
 
@@ -384,6 +394,9 @@ class RigidConstraintTypeAttachment:
 @dataclass(slots=True, kw_only=True)
 class RigidConstraintTypeRefAttachment:
     """A type without a name in the schema: rigid_constraint_type_ref_attachment."""
+
+    translate = Every["TranslateType"]("translate_or_rotate", "TranslateType")
+    rotate = Every["RotateType"]("translate_or_rotate", "RotateType")
 
     class Meta:
         global_type = False
@@ -668,6 +681,21 @@ class RigidConstraintTypeTechniqueCommonSpring:
 class InstanceRigidBodyTypeTechniqueCommonShape:
     """A type without a name in the schema: instance_rigid_body_type_technique_common_shape."""
 
+    instance_physics_material = One["InstancePhysicsMaterialType"](
+        "instance_physics_material_or_physics_material", "InstancePhysicsMaterialType"
+    )
+    physics_material = One["PhysicsMaterialType"](
+        "instance_physics_material_or_physics_material", "PhysicsMaterialType"
+    )
+    instance_geometry = One["InstanceGeometryType"]("choice", "InstanceGeometryType")
+    plane = One["PlaneType"]("choice", "PlaneType")
+    box = One["BoxType"]("choice", "BoxType")
+    sphere = One["SphereType"]("choice", "SphereType")
+    cylinder = One["CylinderType"]("choice", "CylinderType")
+    capsule = One["CapsuleType"]("choice", "CapsuleType")
+    translate = Every["TranslateType"]("translate_or_rotate", "TranslateType")
+    rotate = Every["RotateType"]("translate_or_rotate", "RotateType")
+
     class Meta:
         global_type = False
 
@@ -826,6 +854,21 @@ class LibraryPhysicsMaterialsType:
 class RigidBodyTypeTechniqueCommonShape:
     """A type without a name in the schema: rigid_body_type_technique_common_shape."""
 
+    instance_physics_material = One["InstancePhysicsMaterialType"](
+        "instance_physics_material_or_physics_material", "InstancePhysicsMaterialType"
+    )
+    physics_material = One["PhysicsMaterialType"](
+        "instance_physics_material_or_physics_material", "PhysicsMaterialType"
+    )
+    instance_geometry = One["InstanceGeometryType"]("choice", "InstanceGeometryType")
+    plane = One["PlaneType"]("choice", "PlaneType")
+    box = One["BoxType"]("choice", "BoxType")
+    sphere = One["SphereType"]("choice", "SphereType")
+    cylinder = One["CylinderType"]("choice", "CylinderType")
+    capsule = One["CapsuleType"]("choice", "CapsuleType")
+    translate = Every["TranslateType"]("translate_or_rotate", "TranslateType")
+    rotate = Every["RotateType"]("translate_or_rotate", "RotateType")
+
     class Meta:
         global_type = False
 
@@ -978,6 +1021,13 @@ class RigidConstraintTypeTechniqueCommon:
 class InstanceRigidBodyTypeTechniqueCommon(Stated):
     """A type without a name in the schema: instance_rigid_body_type_technique_common."""
 
+    instance_physics_material = One["InstancePhysicsMaterialType"](
+        "instance_physics_material_or_physics_material", "InstancePhysicsMaterialType"
+    )
+    physics_material = One["PhysicsMaterialType"](
+        "instance_physics_material_or_physics_material", "PhysicsMaterialType"
+    )
+
     class Meta:
         global_type = False
 
@@ -1059,6 +1109,13 @@ class InstanceRigidBodyTypeTechniqueCommon(Stated):
 @dataclass(slots=True, kw_only=True)
 class RigidBodyTypeTechniqueCommon:
     """A type without a name in the schema: rigid_body_type_technique_common."""
+
+    instance_physics_material = One["InstancePhysicsMaterialType"](
+        "instance_physics_material_or_physics_material", "InstancePhysicsMaterialType"
+    )
+    physics_material = One["PhysicsMaterialType"](
+        "instance_physics_material_or_physics_material", "PhysicsMaterialType"
+    )
 
     class Meta:
         global_type = False

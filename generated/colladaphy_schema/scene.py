@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import TYPE_CHECKING, Any, ForwardRef
 
+from colladaphy_schema.choices import Every, One
 from colladaphy_schema.core import InstanceWithExtraType, TargetableFloat3Type, TargetableFloatType
 from colladaphy_schema.linking import Stated
 
@@ -458,6 +459,10 @@ class Ymag(TargetableFloatType):
 class CameraTypeOpticsTechniqueCommonOrthographic:
     """A type without a name in the schema: camera_type_optics_technique_common_orthographic."""
 
+    xmag = Every["Xmag"]("xmag_or_ymag_or_aspect_ratio", "Xmag")
+    ymag = Every["Ymag"]("xmag_or_ymag_or_aspect_ratio", "Ymag")
+    aspect_ratio = Every["AspectRatio"]("xmag_or_ymag_or_aspect_ratio", "AspectRatio")
+
     class Meta:
         global_type = False
 
@@ -502,6 +507,10 @@ class CameraTypeOpticsTechniqueCommonOrthographic:
 @dataclass(slots=True, kw_only=True)
 class CameraTypeOpticsTechniqueCommonPerspective:
     """A type without a name in the schema: camera_type_optics_technique_common_perspective."""
+
+    xfov = Every["Xfov"]("xfov_or_yfov_or_aspect_ratio", "Xfov")
+    yfov = Every["Yfov"]("xfov_or_yfov_or_aspect_ratio", "Yfov")
+    aspect_ratio = Every["AspectRatio"]("xfov_or_yfov_or_aspect_ratio", "AspectRatio")
 
     class Meta:
         global_type = False
@@ -548,6 +557,13 @@ class CameraTypeOpticsTechniqueCommonPerspective:
 class LightTypeTechniqueCommon:
     """A type without a name in the schema: light_type_technique_common."""
 
+    ambient = One["LightTypeTechniqueCommonAmbient"]("choice", "LightTypeTechniqueCommonAmbient")
+    directional = One["LightTypeTechniqueCommonDirectional"](
+        "choice", "LightTypeTechniqueCommonDirectional"
+    )
+    point = One["LightTypeTechniqueCommonPoint"]("choice", "LightTypeTechniqueCommonPoint")
+    spot = One["LightTypeTechniqueCommonSpot"]("choice", "LightTypeTechniqueCommonSpot")
+
     class Meta:
         global_type = False
 
@@ -590,6 +606,13 @@ class LightTypeTechniqueCommon:
 @dataclass(slots=True, kw_only=True)
 class NodeType(Stated):
     """The type node_type."""
+
+    lookat = Every["LookatType"]("choice", "LookatType")
+    matrix = Every["MatrixType"]("choice", "MatrixType")
+    rotate = Every["RotateType"]("choice", "RotateType")
+    scale = Every["ScaleType"]("choice", "ScaleType")
+    skew = Every["SkewType"]("choice", "SkewType")
+    translate = Every["TranslateType"]("choice", "TranslateType")
 
     class Meta:
         name = "node_type"
@@ -775,6 +798,13 @@ class VisualSceneTypeEvaluateSceneRender:
 @dataclass(slots=True, kw_only=True)
 class CameraTypeOpticsTechniqueCommon:
     """A type without a name in the schema: camera_type_optics_technique_common."""
+
+    orthographic = One["CameraTypeOpticsTechniqueCommonOrthographic"](
+        "orthographic_or_perspective", "CameraTypeOpticsTechniqueCommonOrthographic"
+    )
+    perspective = One["CameraTypeOpticsTechniqueCommonPerspective"](
+        "orthographic_or_perspective", "CameraTypeOpticsTechniqueCommonPerspective"
+    )
 
     class Meta:
         global_type = False

@@ -21,6 +21,8 @@ from tools.bindings.modules import MARK, codec_module, package_module, package_s
 # Modules whose name is not their schema file's.
 RENAMED = {"collada": "document", "pe_profile": "pe"}
 PROFILE = "pe"
+# What annotations of fields are made of.
+ANNOTATED = {"bool", "bytes", "dict", "float", "int", "list", "object", "str"}
 RUNTIME = Path(__file__).parent / "runtime"
 
 
@@ -128,11 +130,25 @@ class BindingsGenerator(DataclassGenerator):
         head = [f'"""COLLADA 1.5, dataclasses of {classes[0].module}. {MARK}"""']
         defaults = self.filters.default_imports(output).split("\n")
         typing = "from typing import TYPE_CHECKING"
-        linking = f"from {PACKAGE}.linking import Stated" if "(Stated)" in output else ""
+        linking = f"from {PACKAGE}.linking import Stated" if "Stated)" in output else ""
+        forms = [name for name in ("Every", "One") if f" = {name}[" in output]
+        choices = f"from {PACKAGE}.choices import {', '.join(forms)}" if forms else ""
         guard = ["if TYPE_CHECKING:", *sorted(later)] if later else []
         namespace = f'__NAMESPACE__ = "{classes[0].target_namespace}"'
         return "\n".join(
-            [*head, "", *defaults, typing, linking, *sorted(eager), *guard, "", namespace, output]
+            [
+                *head,
+                "",
+                *defaults,
+                typing,
+                choices,
+                linking,
+                *sorted(eager),
+                *guard,
+                "",
+                namespace,
+                output,
+            ]
         )
 
     def imports_of(self, classes: list[Class], own: set[str]) -> list[Import]:
@@ -162,8 +178,31 @@ class BindingsGenerator(DataclassGenerator):
             bases = ", ".join(part for part in (found[2], base) if part)
             head = f"class {name}{f'({bases})' if bases else ''}:"
             doc = f'    """{described(self.records[obj.qname], obj)}"""'
-            output = f"{output[: found.start()]}{head}\n{doc}\n{output[found.end() :]}"
+            names = "".join(f"    {line}\n" for line in self.choices_of(obj))
+            body = output[found.end() :]
+            output = f"{output[: found.start()]}{head}\n{doc}\n{names and chr(10)}{names}{body}"
         return output
+
+    def choices_of(self, obj: Class) -> Iterator[str]:
+        """Names for the classes that may stand in each choice of a class."""
+        record = self.records[obj.qname]
+        taken = {entry.name for entry in record.fields}
+        own = {self.filters.field_name(attr.name, obj.name) for attr in obj.attrs}
+        for entry in record.fields:
+            if entry.name not in own or len(entry.branches) < 2:
+                continue
+            kinds = [branch.content for branch in entry.branches]
+            for branch in entry.branches:
+                kind = branch.content
+                name = self.filters.field_name(branch.qname.rpartition("}")[2], obj.name)
+                # A name that means something else in the class would change its annotations.
+                if not isinstance(kind, Record) or name in ANNOTATED:
+                    continue
+                if kinds.count(kind) > 1 or name in taken:
+                    raise ValueError(f"{record.name}.{name}: a choice that cannot be named")
+                taken.add(name)
+                form = "Every" if entry.many else "One"
+                yield f'{name} = {form}["{kind.name}"]("{entry.name}", "{kind.name}")'
 
 
 def described(record: Record, obj: Class) -> str:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from colladaphy.errors import DocumentError
 from colladaphy.links import rules
 from colladaphy.links.names import c
-from colladaphy.links.poses import Poses
 from colladaphy.links.pool import Pool, Table
+from colladaphy.links.poses import Poses
 from colladaphy.links.resource import Resource
 from colladaphy.links.steps import Transforms, matrix_of, own_transforms, product, rigid_parts
 from colladaphy_schema.rows import Rows
@@ -97,7 +97,7 @@ class Placement:
             found |= live & (current == ancestors)
             # A circle leads back to where it began.
             current[current == nodes] = -1
-        return found
+        return np.asarray(found)
 
     def own(self) -> OwnTransforms:
         """The transforms of the nodes by themselves."""
@@ -305,7 +305,7 @@ class Placement:
         self._resource.note(rules.SEVERAL_PLACES, element, message, home=home)
 
 
-def _own(nodes: Rows, home: int, start: int) -> OwnTransforms:
+def _own(nodes: Any, home: int, start: int) -> OwnTransforms:
     transforms: Transforms = own_transforms(nodes)
     affine = np.zeros(len(nodes), np.bool_)
     rows = sorted(transforms.matrices)
