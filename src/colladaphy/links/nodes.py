@@ -19,7 +19,6 @@ from colladaphy.links.pool import Pool, Table
 from colladaphy.links.poses import Poses
 from colladaphy.links.resource import Resource
 from colladaphy.links.steps import Transforms, matrix_of, own_transforms, product, rigid_parts
-from colladaphy_schema.rows import Rows
 from colladaphy_schema.scene_columns import InstanceNodeTypeRows, NodeTypeRows
 
 __all__ = ["OwnTransforms", "Placement"]
@@ -305,7 +304,7 @@ class Placement:
         self._resource.note(rules.SEVERAL_PLACES, element, message, home=home)
 
 
-def _own(nodes: Any, home: int, start: int) -> OwnTransforms:
+def _own(nodes: NodeTypeRows, home: int, start: int) -> OwnTransforms:
     transforms: Transforms = own_transforms(nodes)
     affine = np.zeros(len(nodes), np.bool_)
     rows = sorted(transforms.matrices)
@@ -322,6 +321,7 @@ def _own(nodes: Any, home: int, start: int) -> OwnTransforms:
         np.maximum.at(sizes, translate.owner, np.abs(translate.value).max(axis=1))
         both = np.flatnonzero((moves == 1) & (turns == 1))
         first, second = np.zeros(len(nodes), np.int64), np.zeros(len(nodes), np.int64)
+        assert translate.ordinals is not None and rotate.ordinals is not None
         first[translate.owner], second[rotate.owner] = translate.ordinals, rotate.ordinals
         mixed[both] |= first[both] > second[both]
     return OwnTransforms(transforms.poses, affine, matrices, mixed, sizes)
