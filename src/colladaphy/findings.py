@@ -29,8 +29,9 @@ __all__ = [
     "unchanging",
 ]
 
-STAGES = ("io", "xml", "upgrade", "repair", "convention", "schema", "link", "load", "store",
-          "physics", "profile", "engine", "downgrade")  # fmt: skip
+STAGES = ("io", "xml", "upgrade", "repair", "convention", "schema", "asset", "link", "geometry",
+          "scene", "animation", "load", "store", "physics", "kinematics", "profile", "engine",
+          "downgrade")  # fmt: skip
 
 
 class Severity(StrEnum):
@@ -60,6 +61,13 @@ class Finding:
     column: int | None = None
     path: str | None = None
     hint: str | None = None
+    why: str | None = None
+    attribute: str | None = None
+    """The attribute that it is about."""
+    sid: str | None = None
+    """The scoped id of the element."""
+    related: tuple[tuple[str, int | None], ...] = ()
+    """Paths and lines of elements that have to do with it."""
 
     def as_dict(self) -> dict[str, Any]:
         """The finding as the JSON report spells it (the file is named by the report)."""
@@ -72,6 +80,10 @@ class Finding:
             "column": self.column,
             "path": self.path,
             "hint": self.hint,
+            "why": self.why,
+            "attribute": self.attribute,
+            "sid": self.sid,
+            "related": [{"path": path, "line": line} for path, line in self.related],
         }
 
     def __str__(self) -> str:
@@ -89,7 +101,8 @@ class Rule:
     """A kind of finding: a stable code and what is always true of it.
 
     `code` begins with its stage (``repair-shape-order``). `section` names the part of the
-    COLLADA 1.5 specification or of the thesis that the rule stands on.
+    COLLADA 1.5 specification or of the thesis that the rule stands on, `why` says what goes wrong
+    where it is not kept.
     """
 
     code: str
@@ -97,6 +110,7 @@ class Rule:
     summary: str
     hint: str | None = None
     section: str | None = None
+    why: str | None = None
 
     @property
     def stage(self) -> str:
@@ -130,6 +144,7 @@ class Rule:
             column=column,
             path=path,
             hint=hint or self.hint,
+            why=self.why,
         )
 
 

@@ -22,7 +22,7 @@ VALID = b"""<?xml version="1.0" encoding="utf-8"?>
   <library_physics_models>
     <physics_model id="model">
       <rigid_body sid="ball"><technique_common>
-        <shape><sphere><radius>1</radius></sphere></shape>
+        <shape><density>1</density><sphere><radius>1</radius></sphere></shape>
       </technique_common></rigid_body>
       <rigid_constraint sid="joint">
         <ref_attachment rigid_body="model/ball"/><attachment rigid_body=""/>
@@ -114,7 +114,8 @@ def test_only_the_standards_spelling_of_numbers(number: str) -> None:
 
 @pytest.mark.parametrize("number", ["INF", "-INF", "NaN", "1.", ".5", "+1", "1e999", " 1E-5\n"])
 def test_all_of_the_standards_spelling_of_numbers(number: str) -> None:
-    assert codes(VALID.replace(b"<radius>1<", f"<radius>{number}<".encode())) == []
+    found = codes(VALID.replace(b"<radius>1<", f"<radius>{number}<".encode()))
+    assert [code for code in found if code.startswith("schema-")] == []
 
 
 @pytest.mark.parametrize(
@@ -122,7 +123,10 @@ def test_all_of_the_standards_spelling_of_numbers(number: str) -> None:
     [
         (b'url="#view"', b'url="#none"'),
         (b'target="#node"', b'target=""'),
-        (b"<sphere><radius>1</radius></sphere>", b'<instance_geometry url="#none"/>'),
+        (
+            b"<density>1</density><sphere><radius>1</radius></sphere>",
+            b'<density>1</density><instance_geometry url="#none"/>',
+        ),
     ],
 )
 def test_references_that_loading_can_do_without_are_warnings(old: bytes, new: bytes) -> None:
@@ -146,7 +150,7 @@ def test_nested_models_in_a_circle_and_in_a_tower() -> None:
         b"</library_physics_models>", models.encode() + b"</library_physics_models>"
     )
     assert validate(data.replace(b'url="#model"', b'url="#m0"')).errors
-    assert validate(data).valid
+    assert codes(data) == ["link-cycle"]
 
 
 @given(
@@ -201,7 +205,8 @@ def test_the_json_report() -> None:
     assert file["counts"] == {"error": 1, "warning": 0, "info": 0, "hint": 0}
     (finding,) = file["findings"]
     assert list(finding) == [
-        "code", "severity", "stage", "message", "line", "column", "path", "hint",
+        "code", "severity", "stage", "message", "line", "column", "path", "hint", "why",
+        "attribute", "sid", "related",
     ]  # fmt: skip
     assert (finding["code"], finding["severity"], finding["stage"], finding["line"]) == (
         "schema-invalid-value",

@@ -6,13 +6,14 @@ holds the instance; a node that stands nowhere else is taken to stand at the ori
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.errors import DocumentError
+from colladaphy.findings import Severity
 from colladaphy.links import rules
 from colladaphy.links.names import c
 from colladaphy.links.pool import Pool, Table
@@ -182,10 +183,13 @@ class Placement:
                 assert part.ordinals is not None
                 homes = np.full(len(part), home)
                 targets, errors = pool.follow(
-                    self.nodes, list(part.url), homes, part.ordinals, "node"
+                    self.nodes, list(part.url), homes, part.ordinals, "node", needed=False
                 )
+                # What is not there is not seen, but moves nothing.
                 for error in errors.values():
-                    self._resource.report.extend(error.findings)
+                    self._resource.report.extend(
+                        replace(finding, severity=Severity.WARNING) for finding in error.findings
+                    )
                 holders = pool.resources[home].columns.index.parent[part.ordinals]
                 for target, holder in zip(targets.tolist(), holders.tolist(), strict=True):
                     if target < 0 or (target < len(roots) and roots[target]):

@@ -14,7 +14,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.errors import DocumentError
+from colladaphy.errors import ColladaError, DocumentError
 from colladaphy.links.poses import Poses
 from colladaphy.links.resource import Resource
 from colladaphy_schema.rows import Rows
@@ -59,11 +59,14 @@ class Pool:
         homes: Array,
         origins: Array,
         expected: str | tuple[str, ...],
+        *,
+        needed: bool = True,
     ) -> tuple[Array, dict[int, DocumentError]]:
         """The rows of a table that references lead to (-1 for those that fail, with their errors).
 
         `homes` are the numbers of the documents that the references stand in, `origins` the
-        numbers of their elements there.
+        numbers of their elements there. Where the scene cannot do without what is `needed`, a
+        document that cannot be read raises.
         """
         count = len(references)
         rows = np.full(count, -1, np.int64)
@@ -90,6 +93,10 @@ class Pool:
                     found = table.row_of(self.number(target), element)
                 except DocumentError as error:
                     found = error
+                except ColladaError as error:
+                    if needed:
+                        raise
+                    found = DocumentError(error.findings)
                 seen[key] = found
             if isinstance(found, DocumentError):
                 errors[place] = found
@@ -209,6 +216,8 @@ class Table(Generic[R]):
             known = gathered[0] if gathered is not None else []
             for home in range(len(known), len(parts)):
                 known.append(read(parts[home], home, self._starts[home]))
+                # What was made of the columns stays, not the columns: a document has many.
+                parts[home].forget()
             gathered = (known, concatenated(known))
             self._gathered[read] = gathered
         return gathered[1]

@@ -1,4 +1,4 @@
-"""The stages of a check: io, xml, schema, link. The first that fails is the last that runs."""
+"""The stages of a check: io, xml, schema, meaning. The first that fails is the last that runs."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ from colladaphy.findings import Report, unchanging
 from colladaphy.gate import gate
 from colladaphy.gate.numerals import incomplete_numbers
 from colladaphy.links.resource import Resource
+from colladaphy.meaning import check
 from colladaphy.source import Limits, Parsed, Source, load, parse_loaded
 from colladaphy.source import rules as source_rules
 from colladaphy.source.places import locate
-from colladaphy.validation.links import check_links
+from colladaphy.validation.availability import availability
 
 __all__ = ["validate"]
 
@@ -52,7 +53,8 @@ def validate(source: Source, *, limits: Limits | None = None) -> Report:
     report.extend(incomplete_numbers(parsed.tree, loaded.data))
     if report.valid:
         with unchanging():
-            report.extend(check_links(_resource(parsed, loaded.data, report, {})))
+            resource = _resource(parsed, loaded.data, Report(parsed.file), {})
+            report.extend(check(resource, availability(parsed)))
     _locate(report, loaded.data)
     return report
 

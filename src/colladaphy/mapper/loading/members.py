@@ -208,7 +208,7 @@ def _meshes(
     """Find the meshes of shapes; gives the poses of their centres of mass."""
     urls = [every.urls[row] for row in rows[places].tolist()]
     found, errors = tables.pool.follow(
-        tables.geometries, urls, homes[places], ordinals[places], "geometry"
+        tables.geometries, urls, homes[places], ordinals[places], "geometry", needed=False
     )
     for at, error in errors.items():
         problems[int(places[at])] = ShapeFault(error.findings[0].message)

@@ -192,7 +192,7 @@ class Geometries:
             table = self._tables.geometries
             home = table.homes(np.array([row]))
             found, errors = self._tables.pool.follow(
-                table, [read.hull_of], home, np.array([read.origin]), "geometry"
+                table, [read.hull_of], home, np.array([read.origin]), "geometry", needed=False
             )
             if errors:
                 return ShapeFault(_message(errors[0]))

@@ -1,0 +1,133 @@
+"""Addresses by scoped ids, which lead through instances too (COLLADA 1.5 §Address syntax).
+
+Kinematics refers to joints, links and axes of models that are instanced, in several spellings; an
+address is only called wrong where a name in it is there nowhere at all.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import numpy as np
+
+from colladaphy.findings import Severity
+from colladaphy.links.rules import MISSING, WRONG_TYPE
+from colladaphy.meaning.context import Context, TextRows
+from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.links import expected_text
+from colladaphy.meaning.references import ADDRESSES, PARAMETERS
+
+__all__ = ["CHECKS"]
+
+_EXPECTED = {
+    ("attachment_full", "joint"): ("joint", "instance_joint"),
+    ("attachment_start", "joint"): ("joint", "instance_joint"),
+    ("attachment_end", "joint"): ("joint", "instance_joint"),
+    ("frame_origin", "link"): ("link",),
+    ("frame_tip", "link"): ("link",),
+    ("frame_tcp", "link"): ("link",),
+    ("frame_object", "link"): ("link",),
+    ("axis_info", "axis"): ("axis", "revolute", "prismatic", "axis_info"),
+    ("bind_kinematics_model", "node"): ("node",),
+    ("bind_joint_axis", "target"): (
+        "rotate", "translate", "matrix", "scale", "lookat", "skew", "node",
+    ),
+}  # fmt: skip
+_HOLDERS = ("axis", "value", "active", "locked", "min", "max", "bind_kinematics_model")
+_MEMBER = re.compile(r"(\.[A-Za-z_]+|(?:\(\d+\))+)\Z")
+
+
+def addresses(context: Context) -> Iterator[Hit]:
+    """Addresses with names that are there nowhere, or of elements of another type."""
+    for name, attribute in ADDRESSES:
+        for reference in context.references(attribute, name):
+            text = reference.text.strip()
+            if not text:
+                continue
+            lost = _lost(context, text)
+            if lost is not None:
+                message = f"{text!r} leads nowhere: there is no {lost!r}."
+                yield Hit(MISSING, reference.element, message, (), attribute, Severity.WARNING)
+                continue
+            target = _exact(context, text)
+            expected = _EXPECTED[name, attribute]
+            if target >= 0 and context.name(target) not in expected:
+                found = context.name(target)
+                if found.startswith("instance_"):
+                    continue  # the address goes on in what is instanced
+                message = f"{text!r} is a <{found}>, not {expected_text(expected)}."
+                yield Hit(WRONG_TYPE, reference.element, message, (target,), attribute,
+                          Severity.WARNING)  # fmt: skip
+
+
+def sidrefs(context: Context) -> Iterator[Hit]:
+    """Texts that are addresses."""
+    rows = context.rows(TextRows, "SIDREF")
+    assert rows.ordinals is not None
+    for element, text in zip(rows.ordinals.tolist(), rows.value, strict=True):
+        lost = _lost(context, text.strip()) if text.strip() else None
+        if lost is not None:
+            message = f"{text.strip()!r} leads nowhere: there is no {lost!r}."
+            yield Hit(MISSING, element, message, severity=Severity.WARNING)
+
+
+def parameters(context: Context) -> Iterator[Hit]:
+    """Parameters of kinematics that nobody declares."""
+    rows = context.rows(TextRows, "param")
+    if not len(rows):
+        return
+    assert rows.ordinals is not None
+    mine = np.flatnonzero(context.is_within(rows.ordinals, *_HOLDERS))
+    if not len(mine):
+        return
+    known = context.shared(_declared)
+    texts = context.at(TextRows, rows.ordinals[mine]).value
+    for element, text in zip(rows.ordinals[mine].tolist(), texts, strict=True):
+        name = text.strip()
+        last = name.rpartition("/")[2]
+        if name and not {name, last, last.rpartition(".")[2]} & known:
+            message = f"No <newparam> or <bind> declares the parameter {name!r}."
+            yield Hit(MISSING, element, message, severity=Severity.WARNING)
+
+
+def _declared(context: Context) -> frozenset[str]:
+    found: set[str] = set()
+    for name in PARAMETERS:
+        for attribute in ("sid", "symbol", "ref"):
+            found.update(reference.text for reference in context.references(attribute, name))
+    return frozenset(found)
+
+
+def _sids(context: Context) -> frozenset[str]:
+    return frozenset(context.columns.with_attribute("sid")[1])
+
+
+def _lost(context: Context, text: str) -> str | None:
+    """The first name in an address that is there nowhere; None where there is none."""
+    sids = context.shared(_sids)
+    head, *rest = text.removeprefix("#").split("/")
+    if ".dae" in text or "://" in text:
+        return None  # of another document
+    ids = context.resource.ids
+    if head != "." and not {head, _MEMBER.sub("", head)} & (ids.keys() | sids):
+        return head
+    for sid in rest:
+        if sid not in sids and _MEMBER.sub("", sid) not in sids:
+            return sid
+    return None
+
+
+def _exact(context: Context, text: str) -> int:
+    """The element that an address leads to without instances; -1 where it does not."""
+    head, *rest = text.removeprefix("#").split("/")
+    target = context.resource.ids.get(head, -1)
+    for sid in rest:
+        if target < 0:
+            return -1
+        inner = context.resource.sids.within(target, sid)
+        target = -1 if inner is None else inner
+    return target
+
+
+CHECKS = (addresses, sidrefs, parameters)

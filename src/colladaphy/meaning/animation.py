@@ -1,0 +1,199 @@
+"""Animations: samplers, and what channels move (COLLADA 1.5 §animation, §sampler, §channel)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.findings import Severity
+from colladaphy.links.rules import MISSING
+from colladaphy.meaning import animation_rules, link_rules
+from colladaphy.meaning.arrays import sources_of
+from colladaphy.meaning.context import Context
+from colladaphy.meaning.hits import Hit, listed
+from colladaphy.meaning.inputs import inputs_of
+from colladaphy_schema.rows import Column, Masked, Rows
+
+__all__ = ["CHECKS"]
+
+Array = NDArray[Any]
+
+
+_KNOWN = frozenset({"LINEAR", "BEZIER", "CARDINAL", "HERMITE", "BSPLINE", "STEP"})
+_VECTOR, _COLOR = frozenset("XYZ"), frozenset("RGBA")
+_MEMBERS: dict[str, tuple[frozenset[str], int]] = {
+    "translate": (_VECTOR, 3),
+    "scale": (_VECTOR, 3),
+    "rotate": (_VECTOR | {"ANGLE"}, 4),
+    "color": (_COLOR, 0),
+    "matrix": (frozenset(), 16),
+    "lookat": (frozenset(), 9),
+    "skew": (frozenset(), 7),
+}
+"""Names of members, and how many values there are; 0 where that differs."""
+_INDEX = re.compile(r"\((\d+)\)")
+_SPLIT = re.compile(r"(.*?)(\.[A-Za-z_]+|(?:\(\d+\))+)\Z")
+
+
+def samplers(context: Context) -> Iterator[Hit]:
+    """Samplers whose keys do not fit each other."""
+    elements = context.ordinals("sampler")
+    # Effects have samplers too, in another namespace of names.
+    elements = elements[context.is_within(elements, "animation")]
+    inputs, table = inputs_of(context), sources_of(context)
+    for element in elements.tolist():
+        counts: dict[str, int | None] = {}
+        for row in inputs.of(element):
+            if inputs.sources[row] >= 0:
+                counts.setdefault(inputs.semantics[row], table.count(int(inputs.sources[row])))
+        known = {count for count in counts.values() if count is not None}
+        if len(known) > 1:
+            said = ", ".join(f"{count} {name}" for name, count in counts.items())
+            yield Hit(animation_rules.KEY_COUNT, element, f"The inputs differ in number: {said}.")
+            continue
+        source = inputs.source(element, "INPUT")
+        times = None if source < 0 else table.numbers(source)
+        if times is not None and np.isfinite(times).all():
+            steps = np.diff(times[:, 0])
+            if bool(np.any(steps <= 0.0)):
+                place = int(np.flatnonzero(steps <= 0.0)[0])
+                message = f"Time {times[place + 1, 0]:g} comes after {times[place, 0]:g}."
+                yield Hit(animation_rules.KEY_ORDER, int(table.arrays[source]), message, (element,))
+        yield from _interpolations(context, element)
+
+
+def _interpolations(context: Context, element: int) -> Iterator[Hit]:
+    inputs, table = inputs_of(context), sources_of(context)
+    source = inputs.source(element, "INTERPOLATION")
+    words = None if source < 0 else table.words(source)
+    if words is None:
+        return
+    array = int(table.arrays[source])
+    strange = sorted(set(words) - _KNOWN)
+    if strange:
+        yield Hit(
+            animation_rules.INTERPOLATION,
+            array,
+            f"There is no interpolation {listed(strange)}.",
+            (element,),
+        )
+    elif {"BEZIER", "HERMITE"} & set(words):
+        lacking = [name for name in ("IN_TANGENT", "OUT_TANGENT")
+                   if inputs.named(element, name) < 0]  # fmt: skip
+        if lacking:
+            message = f"{words[0]} needs {' and '.join(lacking)}, which the sampler has not."
+            yield Hit(animation_rules.INTERPOLATION, element, message, (array,))
+
+
+def channels(context: Context) -> Iterator[Hit]:
+    """Channels whose targets are not there, or do not fit."""
+    references = context.references("target", "channel")
+    samplers = context.references("source", "channel")
+    seen: dict[str, int] = {}
+    for reference, source in zip(references, samplers, strict=True):
+        element, text = reference.element, reference.text.strip()
+        if text in seen:
+            message = f"Another channel moves {text!r}, too."
+            yield Hit(animation_rules.CHANNEL_TWICE, element, message, (seen[text],), "target")
+            continue
+        seen[text] = element
+        found = _addressed(context, text)
+        if isinstance(found, str):
+            yield Hit(MISSING, element, found, (), "target", Severity.WARNING)
+            continue
+        target, member = found
+        name = context.name(target)
+        members, width = _MEMBERS.get(name, (None, 0))
+        if member and members is not None and not _has(name, members, width, member):
+            message = f"A <{name}> has no member {member!r}."
+            yield Hit(link_rules.CHANNEL_MEMBER, element, message, (target,), "target")
+            continue
+        wanted = 1 if member else width
+        sampler = context.target(source.text)
+        if wanted and sampler >= 0:
+            yield from _width(context, element, sampler, name + member, wanted)
+
+
+def _has(name: str, members: frozenset[str], width: int, member: str) -> bool:
+    if member[0] == ".":
+        return member[1:] in members
+    numbers = [int(number) for number in _INDEX.findall(member)]
+    if name == "matrix" and len(numbers) == 2:
+        return max(numbers) < 4
+    return len(numbers) == 1 and (not width or numbers[0] < width)
+
+
+def _addressed(context: Context, text: str) -> tuple[int, str] | str:
+    """The element that a target means, and the member of it; or why there is none."""
+    head, *sids = text.split("/")
+    if not sids:
+        match = _SPLIT.match(head)
+        target = context.target(head)
+        if target >= 0:
+            return target, ""
+        if match is not None and context.target(match[1]) >= 0:
+            return context.target(match[1]), match[2]
+        return f"There is no element of the id {head!r}."
+    target = context.target(head)
+    if target < 0:
+        return f"There is no element of the id {head!r}."
+    for place, sid in enumerate(sids):
+        member = ""
+        inner = context.resource.sids.within(target, sid)
+        if inner is None and place == len(sids) - 1:
+            match = _SPLIT.match(sid)
+            if match is not None:
+                inner, member = context.resource.sids.within(target, match[1]), match[2]
+                sid = match[1]
+        if inner is None:
+            return f"{context.label(target)} holds no sid {sid!r}."
+        target = inner
+    return target, member
+
+
+def _width(context: Context, element: int, sampler: int, what: str, wanted: int) -> Iterator[Hit]:
+    inputs, table = inputs_of(context), sources_of(context)
+    source = inputs.source(sampler, "OUTPUT")
+    if source < 0 or table.accessors[source] < 0:
+        return
+    array = int(table.arrays[source])
+    if array < 0 or context.name(array) != "float_array":
+        return
+    stride = int(table.steps[source])
+    if stride != wanted:
+        message = f"The keys have {stride} values, but {what} has {wanted}."
+        yield Hit(
+            animation_rules.OUTPUT_WIDTH,
+            element,
+            message,
+            (int(table.accessors[source]),),
+            "target",
+        )
+
+
+class ClipRows(Rows):
+    """Clips of animations."""
+
+    __slots__ = ()
+    start: Column[Masked[Any]] = Column("start", "attribute", "float", optional=True)
+    end: Column[Masked[Any]] = Column("end", "attribute", "float", optional=True)
+
+
+def clips(context: Context) -> Iterator[Hit]:
+    """Clips that end before they start."""
+    rows = context.rows(ClipRows, "animation_clip")
+    if not len(rows):
+        return
+    assert rows.ordinals is not None
+    start = np.where(rows.start.present, rows.start.values, 0.0)
+    wrong = rows.end.present & ~(rows.end.values >= start)
+    for row in np.flatnonzero(wrong).tolist():
+        message = f"The clip starts at {start[row]:g} and ends at {rows.end.values[row]:g}."
+        yield Hit(animation_rules.CLIP_RANGE, int(rows.ordinals[row]), message, (), "end")
+
+
+CHECKS = (samplers, channels, clips)

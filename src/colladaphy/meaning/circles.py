@@ -1,0 +1,127 @@
+"""Elements that are instanced within themselves, and scoped ids that are there twice."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
+
+import numpy as np
+
+from colladaphy.findings import Severity
+from colladaphy.links.rules import CYCLE
+from colladaphy.meaning import link_rules
+from colladaphy.meaning.context import Context
+from colladaphy.meaning.hits import Hit
+
+__all__ = ["CHECKS"]
+
+
+_EDGES: tuple[tuple[str, str, tuple[str, ...]], ...] = (
+    ("instance_node", "url", ("node",)),
+    ("instance_physics_model", "url", ("physics_model",)),
+    ("instance_articulated_system", "url", ("articulated_system",)),
+    ("instance_kinematics_model", "url", ("kinematics_model",)),
+    ("convex_mesh", "convex_hull_of", ("geometry",)),
+    ("skin", "source", ("controller",)),
+    ("morph", "source", ("controller",)),
+    ("instance_animation", "url", ("animation",)),
+    ("instance_formula", "url", ("formula",)),
+)
+"""References that put one element into another: where, which, and the names of both."""
+_BODIES = ("rigid_body", "rigid_constraint")
+
+
+def circles(context: Context) -> Iterator[Hit]:
+    """Elements that are instanced within themselves."""
+    for name, attribute, kinds in _EDGES:
+        references = context.references(attribute, name)
+        if not references:
+            continue
+        elements = np.array([reference.element for reference in references])
+        around = context.ancestor(elements, *kinds)
+        targets = context.targets(reference.text for reference in references)
+        below: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+        for element, outer, target in zip(
+            elements.tolist(), around.tolist(), targets.tolist(), strict=True
+        ):
+            if outer >= 0 and target >= 0 and context.name(target) in kinds:
+                below[outer].append((target, element))
+        if not below:
+            continue
+        if kinds == ("node",):
+            _nest(context, below)
+        told: set[int] = set()
+        for element, target in _closing(below):
+            if target in told:
+                continue
+            told.add(target)
+            message = f"{context.label(target)} is instanced within itself."
+            if attribute == "convex_hull_of":
+                message = f"{context.label(target)} is a convex hull of itself."
+            yield Hit(CYCLE, element, message, (target,), attribute)
+
+
+def _nest(context: Context, below: dict[int, list[tuple[int, int]]]) -> None:
+    """Let nodes hold the nodes in them, too, as far as those hold instances."""
+    waiting = list(below)
+    known = set(waiting)
+    while waiting:
+        inner = waiting.pop()
+        outer = int(context.ancestor(np.array([inner]), "node")[0])
+        if outer < 0:
+            continue
+        below.setdefault(outer, []).append((inner, inner))
+        if outer not in known:
+            known.add(outer)
+            waiting.append(outer)
+
+
+def _closing(below: dict[int, list[tuple[int, int]]]) -> Iterable[tuple[int, int]]:
+    """The references that close circles, and what they lead to: one of each circle."""
+    state: dict[int, int] = {}
+    found = []
+    for start in sorted(below):
+        if start in state:
+            continue
+        state[start] = 1
+        stack = [(start, iter(sorted(below[start], key=lambda edge: edge[1])))]
+        while stack:
+            element, edges = stack[-1]
+            for target, reference in edges:
+                if state.get(target) == 1:
+                    found.append((reference, target))
+                elif target not in state:
+                    state[target] = 1
+                    inner = sorted(below.get(target, ()), key=lambda edge: edge[1])
+                    stack.append((target, iter(inner)))
+                    break
+            else:
+                state[element] = 2
+                stack.pop()
+    return found
+
+
+def duplicate_sids(context: Context) -> Iterator[Hit]:
+    """Siblings of one scoped id."""
+    elements, texts = context.columns.with_attribute("sid")
+    parents = context.parent[elements].tolist()
+    if len(set(zip(parents, texts, strict=True))) == len(texts):
+        return
+    first: dict[tuple[int, str], int] = {}
+    for element, parent, text in zip(elements.tolist(), parents, texts, strict=True):
+        known = first.setdefault((parent, text), element)
+        if known == element:
+            continue
+        name = context.name(element)
+        needed = name in _BODIES and context.name(known) in _BODIES
+        yield Hit(
+            link_rules.DUPLICATE_SID,
+            element,
+            f"<{name}> has the sid {text!r} of a <{context.name(known)}> beside it.",
+            (known,),
+            "sid",
+            Severity.ERROR if needed else None,
+        )
+
+
+CHECKS = (circles, duplicate_sids)

@@ -1,0 +1,69 @@
+"""Rigid constraints with the bodies that they bind (COLLADA 1.5 §rigid_constraint)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.links.poses import Poses
+from colladaphy.links.steps import Steps, poses_of_steps
+from colladaphy.meaning.body_table import bodies_of
+from colladaphy.meaning.context import Context
+from colladaphy.meaning.models import parts_of
+from colladaphy_schema.core_columns import RotateTypeRows, TranslateTypeRows
+from colladaphy_schema.rows import Child, Rows
+
+__all__ = ["AttachmentRows", "Constraints", "constraints_of"]
+
+Array = NDArray[Any]
+_SIDES = ("ref_attachment", "attachment")
+
+
+class AttachmentRows(Rows):
+    """Attachments, with their frames."""
+
+    __slots__ = ()
+    translate: Child[TranslateTypeRows] = Child(
+        "{http://www.collada.org/2008/03/COLLADASchema}translate", "core_columns:TranslateTypeRows"
+    )
+    rotate: Child[RotateTypeRows] = Child(
+        "{http://www.collada.org/2008/03/COLLADASchema}rotate", "core_columns:RotateTypeRows"
+    )
+
+
+class Constraints:
+    """All rigid constraints of a document, one a row."""
+
+    def __init__(self, context: Context) -> None:
+        rows = context.rows(Rows, "rigid_constraint")
+        assert rows.ordinals is not None
+        self.elements: Array = rows.ordinals.astype(np.int64)
+        count = len(rows)
+        self.references = [["", ""] for _ in range(count)]
+        """What the attachments refer to; empty for the world."""
+        self.attachments: Array = np.full((count, 2), -1, np.int64)
+        self.bodies: Array = np.full((count, 2), -1, np.int64)
+        """(n, 2) the rows of the bodies, -1 for the world and for what is not found."""
+        self.frames = [Poses.none(count), Poses.none(count)]
+        """Of both attachments, in their bodies."""
+        parts, home, bodies = context.shared(parts_of), context.resource, bodies_of(context)
+        for side, name in enumerate(_SIDES):
+            ends = context.children(rows, name, AttachmentRows)
+            assert ends.ordinals is not None
+            self.attachments[ends.owner, side] = ends.ordinals
+            self.frames[side].put(ends.owner, poses_of_steps(Steps.of(ends)))
+            for row, text in zip(ends.owner.tolist(), context.texts(ends, "rigid_body"),
+                                 strict=True):  # fmt: skip
+                self.references[row][side] = (text or "").strip()
+                model = int(context.parent[self.elements[row]])
+                meant = parts.attached(home, model, (text or "").strip()) if text else None
+                found = meant[1] if meant is not None and meant[0] is home else None
+                if found is not None:
+                    self.bodies[row, side] = bodies.row(found)
+
+
+def constraints_of(context: Context) -> Constraints:
+    """The constraints of a document."""
+    return context.shared(Constraints)

@@ -1,0 +1,262 @@
+"""What rules look at: the columns of a document, tables that several rules need, and its links."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.columns.reading import Document
+from colladaphy.findings import Rule
+from colladaphy.links.names import COLLADA, c
+from colladaphy.links.nodes import Placement
+from colladaphy.links.pool import Pool
+from colladaphy.links.resource import Resource
+from colladaphy.meaning.hits import Hit
+from colladaphy_schema.rows import Child, Column, Lists, Rows
+
+__all__ = ["Context", "FloatRows", "IntegerRows", "NamedRows", "TextRows"]
+
+Array = NDArray[Any]
+R = TypeVar("R", bound=Rows)
+T = TypeVar("T")
+
+
+class FloatRows(Rows):
+    """Elements of numbers."""
+
+    __slots__ = ()
+    value: Column[Lists] = Column("", "text", "float", tokens=True)
+
+
+class IntegerRows(Rows):
+    """Elements of whole numbers."""
+
+    __slots__ = ()
+    value: Column[Lists] = Column("", "text", "integer", tokens=True)
+
+
+class TextRows(Rows):
+    """Elements of text."""
+
+    __slots__ = ()
+    value: Column[list[str]] = Column("", "text", "token")
+
+
+class NamedRows(Rows):
+    """Elements with ids, sids and names."""
+
+    __slots__ = ()
+    id: Column[list[str | None]] = Column("id", "attribute", "token", optional=True)
+    sid: Column[list[str | None]] = Column("sid", "attribute", "token", optional=True)
+    name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
+
+
+class _Quiet(Resource):
+    """Takes what is noticed on the way, as rules of their own tell it."""
+
+    def note(
+        self,
+        rule: Rule,
+        number: int | None = None,
+        message: str | None = None,
+        *,
+        home: Resource | None = None,
+    ) -> None:
+        """Nothing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reference:
+    """A text that refers to something, at an element."""
+
+    element: int
+    text: str
+
+
+class Context:
+    """One document, for all rules."""
+
+    def __init__(self, resource: Resource, exists: Callable[[str], str | None] | None = None):
+        self.resource = resource
+        self.exists = exists
+        """Why a file that a reference names cannot be had (None: it can); None if not known."""
+        self._rows: dict[tuple[type[Rows], tuple[str, ...]], Rows] = {}
+        self._firsts: dict[tuple[str, ...], dict[int, int]] = {}
+        self._shared: dict[Callable[[Context], Any], Any] = {}
+
+    @cached_property
+    def columns(self) -> Document:
+        """The document as columns."""
+        return self.resource.columns
+
+    @property
+    def parent(self) -> Array:
+        """The parent of each element, -1 for the root."""
+        return self.columns.index.parent
+
+    @cached_property
+    def pool(self) -> Pool:
+        """The documents that the document refers to."""
+        return Pool(self.resource)
+
+    @cached_property
+    def placement(self) -> Placement:
+        """Where nodes stand."""
+        return Placement(self.pool, _Quiet(None))
+
+    def shared(self, make: Callable[[Context], T]) -> T:
+        """What a function makes of the document, made once."""
+        if make not in self._shared:
+            self._shared[make] = make(self)
+        found: T = self._shared[make]
+        return found
+
+    # --- elements
+
+    def rows(self, kind: type[R], *names: str) -> R:
+        """All elements of some names, but for those in techniques."""
+        key = (kind, names)
+        if key not in self._rows:
+            self._rows[key] = self.columns.rows(kind, *map(c, names))
+        found: Any = self._rows[key]
+        return found  # type: ignore[no-any-return]
+
+    def ordinals(self, *names: str) -> Array:
+        """The numbers of all elements of some names."""
+        found = self.rows(Rows, *names).ordinals
+        assert found is not None
+        return found
+
+    def every(self, *names: str) -> Array:
+        """The numbers of all elements of some names, in techniques too."""
+        columns = self.columns
+        parts = [columns.index.rows(code) for name in names for code in columns.codes_of(c(name))]
+        return np.sort(np.concatenate(parts)) if parts else np.zeros(0, np.int32)
+
+    def children(self, rows: Rows, name: str, kind: type[R]) -> R:
+        """The children of a name of some rows."""
+        child: Child[Any] = Child(c(name), "rows:Rows")
+        child._type = kind
+        found: R = self.columns.children(rows, child)
+        return found
+
+    def first_children(self, *names: str) -> dict[int, int]:
+        """The first child of some names of each element that has one."""
+        if names not in self._firsts:
+            found = self.ordinals(*names)
+            above = self.parent[found]
+            self._firsts[names] = dict(
+                zip(reversed(above.tolist()), reversed(found.tolist()), strict=True)
+            )
+        return self._firsts[names]
+
+    def scalars(self, rows: Rows, name: str) -> tuple[Array, Array]:
+        """The number (n,) in a child of each row, NaN for none, and the child (n,), -1 for none."""
+        values, elements = self.vectors(rows, name, 1)
+        return values[:, 0], elements
+
+    def vectors(self, rows: Rows, name: str, width: int) -> tuple[Array, Array]:
+        """The same for children of several numbers (n, width)."""
+        values = np.full((len(rows), width), np.nan)
+        elements = np.full(len(rows), -1, np.int64)
+        found = self.children(rows, name, FloatRows)
+        if len(found):
+            assert found.ordinals is not None
+            full = np.diff(found.value.offsets) == width
+            first = found.value.offsets[:-1][full]
+            values[found.owner[full]] = found.value.values[first[:, None] + np.arange(width)]
+            elements[found.owner] = found.ordinals
+        return values, elements
+
+    def flags(self, rows: Rows, name: str, default: bool) -> tuple[Array, Array]:
+        """The truth value (n,) in a child of each row, and the child (n,), -1 for none."""
+        values = np.full(len(rows), default)
+        elements = np.full(len(rows), -1, np.int64)
+        found = self.children(rows, name, TextRows)
+        if len(found):
+            assert found.ordinals is not None
+            values[found.owner] = [text.strip() in ("true", "1") for text in found.value]
+            elements[found.owner] = found.ordinals
+        return values, elements
+
+    def at(self, kind: type[R], ordinals: Array) -> R:
+        """Elements of some numbers, ascending."""
+        return kind(len(ordinals), owners=len(ordinals), origin=self.columns,
+                    ordinals=np.asarray(ordinals, np.int32))  # fmt: skip
+
+    def is_within(self, ordinals: Array, *names: str) -> Array:
+        """Which elements (n,) are children of elements of some names."""
+        codes = [code for name in names for code in self.columns.codes_of(c(name))]
+        above = self.parent[ordinals]
+        return np.isin(self.columns.index.codes[np.maximum(above, 0)], codes) & (above >= 0)
+
+    def ancestor(self, ordinals: Array, *names: str) -> Array:
+        """The nearest elements (n,) of some names around elements; -1 for none."""
+        codes = [code for name in names for code in self.columns.codes_of(c(name))]
+        parent, current = self.parent, self.parent[ordinals].astype(np.int64)
+        every = self.columns.index.codes
+        while True:
+            left = np.flatnonzero((current >= 0) & ~np.isin(every[np.maximum(current, 0)], codes))
+            if not len(left):
+                return current
+            current[left] = parent[current[left]]
+
+    def name(self, element: int) -> str:
+        """The local name of an element."""
+        return self.columns.local_name(element)
+
+    def label(self, element: int) -> str:
+        """What an element is called in a message."""
+        for key in ("id", "sid", "name"):
+            text = self.columns.attribute_of(element, key)
+            if text:
+                return f"<{self.name(element)}> {text!r}"
+        return f"<{self.name(element)}>"
+
+    @cached_property
+    def is_collada(self) -> bool:
+        """Whether the root is of COLLADA 1.5."""
+        return bool(self.columns.codes_of(f"{{{COLLADA}}}COLLADA"))
+
+    # --- references
+
+    def texts(self, rows: Rows, attribute: str) -> list[str | None]:
+        """An attribute of some rows."""
+        column: Column[Any] = Column(attribute, "attribute", "token", optional=True)
+        column.name = attribute
+        found: list[str | None] = self.columns.column(rows, column)
+        return found
+
+    def references(self, attribute: str, *names: str) -> list[Reference]:
+        """All references of an attribute of elements of some names."""
+        rows = self.rows(Rows, *names)
+        assert rows.ordinals is not None
+        return [
+            Reference(element, text)
+            for element, text in zip(
+                rows.ordinals.tolist(), self.texts(rows, attribute), strict=True
+            )
+            if text is not None
+        ]
+
+    def target(self, text: str | None) -> int:
+        """The element of this document that a URI such as ``#id``, or an id, means; -1 for none."""
+        if not text:
+            return -1
+        return self.resource.ids.get(text.removeprefix("#"), -1)
+
+    def targets(self, texts: Iterable[str | None]) -> Array:
+        """The same for many."""
+        ids = self.resource.ids
+        return np.array(
+            [ids.get(text.removeprefix("#"), -1) if text else -1 for text in texts], np.int64
+        )
+
+
+Check = Callable[[Context], Iterable[Hit]]
+"""A rule as a function."""

@@ -1,0 +1,202 @@
+"""Skins and morphs (COLLADA 1.5 §skin, §vertex_weights, §morph)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.findings import Severity
+from colladaphy.links.rules import MISSING
+from colladaphy.meaning import animation_rules
+from colladaphy.meaning.arrays import CountRows, sources_of
+from colladaphy.meaning.context import Context, IntegerRows, NamedRows
+from colladaphy.meaning.hits import Hit, listed
+from colladaphy.meaning.inputs import inputs_of
+from colladaphy_schema.rows import Rows
+
+__all__ = ["CHECKS"]
+
+Array = NDArray[Any]
+
+
+def weights(context: Context) -> Iterator[Hit]:
+    """The counts, indices and sums of the weights of skins."""
+    rows = context.rows(CountRows, "vertex_weights")
+    if not len(rows):
+        return
+    assert rows.ordinals is not None
+    inputs, table = inputs_of(context), sources_of(context)
+    sizes, pairs = _lists(context, rows, "vcount"), _lists(context, rows, "v")
+    for row, (element, count) in enumerate(
+        zip(rows.ordinals.tolist(), rows.count.values.tolist(), strict=True)
+    ):
+        mine = inputs.of(element)
+        stride = max((int(inputs.offsets[each]) for each in mine), default=0) + 1
+        vcount, v = sizes.get(row), pairs.get(row)
+        length = 0 if vcount is None else len(vcount[1])
+        skin = int(context.parent[element])
+        vertices = _vertex_count(context, skin)
+        if length != count:
+            message = f"The count is {count}, but there are numbers of weights for {length}."
+            yield Hit(animation_rules.SKIN_COUNT, element, message, (), "count")
+            continue
+        if vertices is not None and count != vertices:
+            message = f"There are weights for {count} vertices, but the geometry has {vertices}."
+            yield Hit(animation_rules.SKIN_COUNT, element, message, (), "count")
+            continue
+        if vcount is None:
+            continue
+        total = int(vcount[1].sum())
+        if v is None or len(v[1]) != total * stride:
+            there = 0 if v is None else len(v[1])
+            message = f"{total} weights need {total * stride} indices, but there are {there}."
+            yield Hit(
+                animation_rules.SKIN_COUNT, element if v is None else v[0], message, (element,)
+            )
+            continue
+        faulty = False
+        for each in mine:
+            limit = inputs.count(each)
+            used = v[1][int(inputs.offsets[each]) :: stride]
+            least = -1 if inputs.semantics[each] == "JOINT" else 0
+            if limit is None or not len(used):
+                continue
+            if int(used.max()) >= limit or int(used.min()) < least:
+                worst = int(used.max()) if int(used.max()) >= limit else int(used.min())
+                message = (
+                    f"The index {worst} of {inputs.semantics[each]} is not one of {limit} values."
+                )
+                yield Hit(animation_rules.SKIN_INDEX, v[0], message, (element,))
+                faulty = True
+                break
+        which = inputs.named(element, "WEIGHT")
+        if faulty or which < 0 or inputs.sources[which] < 0:
+            continue
+        numbers = table.numbers(int(inputs.sources[which]))
+        if numbers is None or not np.isfinite(numbers).all():
+            continue
+        used = numbers[v[1][int(inputs.offsets[which]) :: stride], 0]
+        owner = np.repeat(np.arange(count), vcount[1])
+        sums = np.bincount(owner, used, minlength=count)
+        wrong = np.flatnonzero((np.abs(sums - 1.0) > 0.01) & (vcount[1] > 0))
+        if len(wrong):
+            message = (
+                f"The weights of {len(wrong)} vertices do not add up to 1: of vertex "
+                f"{int(wrong[0])} to {sums[wrong[0]]:g}."
+            )
+            yield Hit(animation_rules.SKIN_SUM, v[0], message, (element,))
+
+
+def _lists(context: Context, rows: Rows, name: str) -> dict[int, tuple[int, Array]]:
+    found = context.children(rows, name, IntegerRows)
+    assert found.ordinals is not None
+    return {
+        owner: (element, found.value[place])
+        for place, (owner, element) in enumerate(
+            zip(found.owner.tolist(), found.ordinals.tolist(), strict=True)
+        )
+    }
+
+
+def _vertex_count(context: Context, controller: int, depth: int = 0) -> int | None:
+    """How many vertices the geometry of a skin or morph has."""
+    target = context.target(context.columns.attribute_of(controller, "source"))
+    if target < 0 or depth > 8:
+        return None
+    if context.name(target) == "controller":
+        inner = context.first_children("skin", "morph").get(target, -1)
+        return _vertex_count(context, inner, depth + 1) if inner >= 0 else None
+    return geometry_size(context, target)
+
+
+def geometry_size(context: Context, geometry: int) -> int | None:
+    """How many vertices a geometry has; None where that cannot be told."""
+    inputs = inputs_of(context)
+    known = context.shared(_vertices)
+    vertices = known.get(geometry)
+    if vertices is None:
+        return None
+    row = inputs.named(vertices, "POSITION")
+    return None if row < 0 else inputs.count(row)
+
+
+def _vertices(context: Context) -> dict[int, int]:
+    """The vertices of each geometry."""
+    elements = context.ordinals("vertices")
+    around = context.ancestor(elements, "geometry")
+    return dict(zip(around.tolist(), elements.tolist(), strict=True))
+
+
+def joints(context: Context) -> Iterator[Hit]:
+    """Joints without matrices, and those that are no nodes."""
+    elements = context.ordinals("joints")
+    if not len(elements):
+        return
+    inputs, table = inputs_of(context), sources_of(context)
+    nodes = context.rows(NamedRows, "node")
+    sids = {sid for sid in nodes.sid if sid}
+    told: set[int] = set()
+    for element in elements.tolist():
+        source = inputs.source(element, "JOINT")
+        bind = inputs.source(element, "INV_BIND_MATRIX")
+        if source >= 0 and bind >= 0:
+            count, others = table.count(source), table.count(bind)
+            if count is not None and others is not None and count != others:
+                message = f"There are {count} joints and {others} inverse bind matrices."
+                row = inputs.named(element, "INV_BIND_MATRIX")
+                yield Hit(animation_rules.SKIN_BIND, int(inputs.elements[row]), message, (element,))
+        if source < 0:
+            continue
+        words, array = table.words(source), int(table.arrays[source])
+        if words is None or array in told:
+            continue
+        told.add(array)
+        if context.name(array) == "IDREF_array":
+            lost = [word for word in words if context.target(word) < 0]
+            if lost:
+                yield Hit(MISSING, array, f"There is no element of the id {listed(lost)}.",
+                          severity=Severity.WARNING)  # fmt: skip
+        elif context.name(array) == "Name_array":
+            lost = [word for word in words if word not in sids]
+            if lost:
+                yield Hit(animation_rules.SKIN_JOINT, array, f"No node has the sid {listed(lost)}.")
+
+
+def morphs(context: Context) -> Iterator[Hit]:
+    """Targets of morphs that are not there, or do not fit."""
+    elements = context.ordinals("targets")
+    if not len(elements):
+        return
+    inputs, table = inputs_of(context), sources_of(context)
+    for element in elements.tolist():
+        source = inputs.source(element, "MORPH_TARGET")
+        weights = inputs.source(element, "MORPH_WEIGHT")
+        if source < 0:
+            continue
+        count = table.count(source)
+        if weights >= 0 and count != table.count(weights):
+            message = f"There are {count} targets and {table.count(weights)} weights."
+            yield Hit(animation_rules.MORPH_TARGETS, element, message)
+            continue
+        words, array = table.words(source), int(table.arrays[source])
+        if words is None:
+            continue
+        found = [context.target(word) for word in words]
+        lost = [word for word, target in zip(words, found, strict=True) if target < 0]
+        if lost:
+            yield Hit(MISSING, array, f"There is no geometry of the id {listed(lost)}.",
+                      severity=Severity.WARNING)  # fmt: skip
+            continue
+        size = _vertex_count(context, int(context.parent[element]))
+        for word, target in zip(words, found, strict=True):
+            other = geometry_size(context, target)
+            if size is not None and other is not None and other != size:
+                message = f"The target {word!r} has {other} vertices, the geometry {size}."
+                yield Hit(animation_rules.MORPH_TARGETS, array, message, (element, target))
+                break
+
+
+CHECKS = (weights, joints, morphs)

@@ -1,0 +1,119 @@
+"""Rigid constraints: limits, springs and ends (COLLADA 1.5 §rigid_constraint; thesis 4.5)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.findings import Severity
+from colladaphy.meaning import physics_rules
+from colladaphy.meaning.body_table import bodies_of
+from colladaphy.meaning.constraint_table import constraints_of
+from colladaphy.meaning.context import Context
+from colladaphy.meaning.hits import Hit
+from colladaphy_schema.rows import Rows
+
+__all__ = ["CHECKS", "looks_like_radians"]
+
+Array = NDArray[Any]
+
+
+_FREE = (1.0, 0.0)
+"""How Bullet and others write an axis without limits."""
+_ANGLES = tuple(
+    math.pi * part
+    for part in (2.0, 1.5, 1.0, 5 / 6, 0.75, 2 / 3, 0.5, 1 / 3, 0.25, 1 / 6, 0.125, 1 / 12)
+)
+
+
+def looks_like_radians(values: Array) -> bool:
+    """Whether angles are known parts of a circle in radians, all that are not zero or infinite."""
+    told = [abs(float(value)) for value in values if value != 0.0 and math.isfinite(value)]
+    return bool(told) and all(any(abs(v - a) < 2e-4 * a for a in _ANGLES) for v in told)
+
+
+def limits(context: Context) -> Iterator[Hit]:
+    """Limits that leave nothing, or that look like radians."""
+    rows = context.rows(Rows, "limits")
+    if not len(rows):
+        return
+    for name in ("linear", "swing_cone_and_twist"):
+        groups = context.children(rows, name, Rows)
+        low, low_elements = context.vectors(groups, "min", 3)
+        high, high_elements = context.vectors(groups, "max", 3)
+        there = (low_elements >= 0) & (high_elements >= 0)
+        free = (low == _FREE[0]) & (high == _FREE[1])
+        free |= np.isinf(low) & np.isinf(high)
+        wrong = there & (~(low <= high) & ~free).any(axis=1)
+        what = "linear" if name == "linear" else "angular"
+        for row in np.flatnonzero(wrong).tolist():
+            axis = int(np.flatnonzero(~(low[row] <= high[row]) & ~free[row])[0])
+            message = (
+                f"The {what} limits along {'xyz'[axis]} are from {low[row, axis]:g} to "
+                f"{high[row, axis]:g}."
+            )
+            yield Hit(
+                physics_rules.JOINT_LIMITS,
+                int(low_elements[row]),
+                message,
+                (int(high_elements[row]),),
+            )
+        if what == "angular":
+            for row in np.flatnonzero(there & ~wrong).tolist():
+                if looks_like_radians(
+                    np.concatenate([low[row], high[row]])[~np.tile(free[row], 2)]
+                ):
+                    shown = " ".join(f"{value:g}" for value in high[row].tolist())
+                    message = f"The angular limits are up to {shown} degrees."
+                    yield Hit(physics_rules.JOINT_RADIANS, int(low_elements[row]), message)
+
+
+def springs(context: Context) -> Iterator[Hit]:
+    """Springs that push away."""
+    rows = context.rows(Rows, "spring")
+    if not len(rows):
+        return
+    for name in ("linear", "angular"):
+        groups = context.children(rows, name, Rows)
+        for part in ("stiffness", "damping", "target_value"):
+            values, elements = context.scalars(groups, part)
+            good = np.isfinite(values)
+            if part != "target_value":
+                good = values >= 0.0  # INF is rigid
+            for row in np.flatnonzero((elements >= 0) & ~good).tolist():
+                message = f"The {part.replace('_', ' ')} of the {name} spring is {values[row]:g}."
+                nothing = math.isnan(float(values[row]))
+                yield Hit(physics_rules.JOINT_SPRING, int(elements[row]), message,
+                          severity=Severity.ERROR if nothing else None)  # fmt: skip
+
+
+def ends(context: Context) -> Iterator[Hit]:
+    """Joints of bodies with themselves, or between such as cannot move."""
+    table, bodies = constraints_of(context), bodies_of(context)
+    for row in range(len(table.elements)):
+        first, second = (end.strip() for end in table.references[row])
+        one, two = table.bodies[row].tolist()
+        element = int(table.elements[row])
+        if first and one >= 0 and one == two:
+            message = f"Both attachments are to {context.label(int(bodies.elements[one]))}."
+            yield Hit(physics_rules.JOINT_SELF, int(table.attachments[row, 1]), message,
+                      (int(table.attachments[row, 0]),), "rigid_body")  # fmt: skip
+        elif not first and not second:
+            yield Hit(physics_rules.JOINT_FIXED, element, "Both attachments are to the world.")
+        elif (
+            not (first and one < 0)
+            and not (second and two < 0)
+            and not any(end >= 0 and bodies.moves[end] for end in (one, two))
+        ):
+            yield Hit(
+                physics_rules.JOINT_FIXED,
+                element,
+                "Neither end of the joint is a body that moves.",
+            )
+
+
+CHECKS = (limits, springs, ends)

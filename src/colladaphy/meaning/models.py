@@ -1,0 +1,223 @@
+"""Bodies and constraints that instances of physics models name (COLLADA 1.5 §physics_model)."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+
+from colladaphy.errors import ColladaError
+from colladaphy.links.addresses import split_reference
+from colladaphy.links.names import c
+from colladaphy.links.resource import Resource
+from colladaphy.links.rules import MISSING
+from colladaphy.meaning import link_rules
+from colladaphy.meaning.context import Context
+from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.links import reference_hits
+from colladaphy_schema.rows import Column, Rows
+
+__all__ = ["CHECKS", "Parts", "parts_of"]
+
+
+_KINDS = {
+    ("instance_rigid_body", "body"): "rigid_body",
+    ("instance_rigid_constraint", "constraint"): "rigid_constraint",
+}
+
+
+def parts_of(context: Context) -> Parts:
+    """The parts of the models of a document and of those that it refers to."""
+    return Parts(context.resource)
+
+
+class Parts:
+    """Sids of rigid bodies and constraints, by the physics model that an instance refers to."""
+
+    def __init__(self, resource: Resource) -> None:
+        self._resource = resource
+        self._own: dict[tuple[int, str], dict[int, dict[str, int]]] = {}
+        self._all: dict[tuple[int, int, str], frozenset[str]] = {}
+        self._models: dict[tuple[int, int], tuple[Resource, int] | None] = {}
+
+    def model(self, resource: Resource, instance: int) -> tuple[Resource, int] | None:
+        """The model that an instance_physics_model refers to; None where it cannot be found."""
+        key = (id(resource), instance)
+        if key not in self._models:
+            url = resource.columns.attribute_of(instance, "url") or ""
+            known = resource.ids.get(url[1:]) if url[:1] == "#" else None
+            found: tuple[Resource, int] | None = None
+            if known is not None:
+                if resource.columns.local_name(known) == "physics_model":
+                    found = resource, known
+            else:
+                try:
+                    found = resource.follow(url, instance, "physics_model")
+                except ColladaError:
+                    found = None
+            self._models[key] = found
+        return self._models[key]
+
+    def named(self, home: Resource, model: int, kind: str, sid: str) -> int | None:
+        """The element of a sid in a model itself."""
+        return self.own(home, kind).get(model, {}).get(sid)
+
+    def within(self, home: Resource, model: int, kind: str) -> frozenset[str]:
+        """Sids in the model and in the models that it instances, each looked at once."""
+        key = (id(home), model, kind)
+        if key not in self._all:
+            sids: set[str] = set()
+            seen = {(id(home), model)}
+            waiting = [(home, model)]
+            while waiting:
+                where, inner = waiting.pop()
+                sids |= self.own(where, kind).get(inner, {}).keys()
+                for instance in self.own(where, "instance_physics_model").get(inner, {}).values():
+                    found = self.model(where, instance)
+                    if found is not None and (id(found[0]), found[1]) not in seen:
+                        seen.add((id(found[0]), found[1]))
+                        waiting.append(found)
+            self._all[key] = frozenset(sids)
+        return self._all[key]
+
+    def attached(self, home: Resource, model: int, reference: str) -> tuple[Resource, int] | None:
+        """The rigid_body that an attachment within a model means; None for what names none.
+
+        It is named by its sid, after the id of the model or the sids of models within it.
+        """
+        file, head, sids = split_reference(reference)
+        if file:
+            return None
+        id = home.columns.attribute_of(model, "id")
+        path = sids if head == "." or head == id else [head, *sids]
+        where: tuple[Resource, int] | None = (home, model)
+        for step in path[:-1]:
+            where = None if where is None else self._inner(*where, step)
+        if where is None or not path:
+            return None
+        body = self.named(*where, "rigid_body", path[-1])
+        return None if body is None else (where[0], body)
+
+    def _inner(self, home: Resource, model: int, name: str) -> tuple[Resource, int] | None:
+        """The model that is instanced in one by the sid of the instance, or by its own id."""
+        instances = self.own(home, "instance_physics_model").get(model, {}).values()
+        for instance in instances:
+            if home.columns.attribute_of(instance, "sid") == name:
+                return self.model(home, instance)
+        for instance in instances:
+            found = self.model(home, instance)
+            if found is not None and found[0].columns.attribute_of(found[1], "id") == name:
+                return found
+        return None
+
+    def own(self, home: Resource, kind: str) -> dict[int, dict[str, int]]:
+        """The elements of a kind by their sids (of instances by their numbers), by parent."""
+        key = (id(home), kind)
+        if key not in self._own:
+            found: defaultdict[int, dict[str, int]] = defaultdict(dict)
+            for number, text in _attributes(home, kind, "sid"):
+                told = str(number) if kind.startswith("instance_") else text
+                if told is not None:
+                    found[home.columns.parent_of(number)].setdefault(told, number)
+            self._own[key] = dict(found)
+        return self._own[key]
+
+
+def _attributes(home: Resource, name: str, attribute: str) -> Iterator[tuple[int, str | None]]:
+    rows = home.columns.rows(Rows, c(name))
+    assert rows.ordinals is not None
+    column: Column[list[str | None]] = Column(attribute, "attribute", "token", optional=True)
+    column.name = attribute
+    yield from zip(rows.ordinals.tolist(), home.columns.column(rows, column), strict=True)
+
+
+def named_parts(context: Context) -> Iterator[Hit]:
+    """Instances that name no body, or no constraint, of their model."""
+    parts = context.shared(parts_of)
+    home = context.resource
+    for (name, attribute), kind in _KINDS.items():
+        references = context.references(attribute, name)
+        for reference in references:
+            instance = int(context.parent[reference.element])
+            model = parts.model(home, instance)
+            if model is None:
+                continue  # reported at the instance
+            sid = reference.text.rpartition("/")[2]
+            if parts.named(*model, kind, sid) is not None or sid in parts.within(*model, kind):
+                continue
+            url = home.columns.attribute_of(instance, "url") or ""
+            message = f"The physics model {url!r} has no <{kind}> of sid {reference.text!r}."
+            other = next(iter(set(_KINDS.values()) - {kind}))
+            if parts.named(*model, other, sid) is not None:
+                message = f"{reference.text!r} is a <{other}> of the model {url!r}, not a <{kind}>."
+            yield Hit(MISSING, reference.element, message, (), attribute)
+
+
+def attachments(context: Context) -> Iterator[Hit]:
+    """What the attachments of constraints refer to; the empty reference is the world."""
+    parts, home = context.shared(parts_of), context.resource
+    for name in ("ref_attachment", "attachment"):
+        for reference in context.references("rigid_body", name):
+            text = reference.text.strip()
+            if not text:
+                continue
+            model = int(context.parent[context.parent[reference.element]])
+            if parts.attached(home, model, text) is None:
+                yield from reference_hits(
+                    context, reference.element, "rigid_body", text, ("rigid_body", "node"),
+                    addressed=True,
+                )  # fmt: skip
+
+
+def ends(context: Context) -> Iterator[Hit]:
+    """Constraints in effect whose bodies are there twice, or not at all."""
+    parts = context.shared(parts_of)
+    home = context.resource
+    bodies: defaultdict[int, defaultdict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
+    for reference in context.references("body", "instance_rigid_body"):
+        above = int(context.parent[reference.element])
+        bodies[above][reference.text.rpartition("/")[2]].append(reference.element)
+    attached = {
+        name: {int(context.parent[r.element]): r for r in context.references("rigid_body", name)}
+        for name in ("ref_attachment", "attachment")
+    }
+    nested = set(context.parent[context.ordinals("instance_physics_model")].tolist())
+    told: set[int] = set()
+    for reference in context.references("constraint", "instance_rigid_constraint"):
+        instance = int(context.parent[reference.element])
+        model = parts.model(home, instance)
+        if model is None or model[0] is not home:
+            continue
+        constraint = parts.named(*model, "rigid_constraint", reference.text.rpartition("/")[2])
+        if constraint is None:
+            continue
+        for name, ends in attached.items():
+            end = ends.get(constraint)
+            text = "" if end is None else end.text.strip()
+            meant = parts.attached(*model, text) if text else None
+            if end is None or meant is None or meant[0] is not home:
+                continue
+            body = meant[1]
+            if context.parent[body] != model[1]:
+                continue  # in a model within the model
+            sid = home.columns.attribute_of(body, "sid") or ""
+            found = bodies[instance].get(sid, [])
+            if len(found) > 1 and found[1] not in told:
+                told.add(found[1])
+                message = (
+                    f"The body {sid!r} is instanced {len(found)} times in one instance of its "
+                    f"model, so the constraint {reference.text!r} cannot tell which one is meant."
+                )
+                yield Hit(link_rules.BODY_TWICE, found[1], message, (found[0], end.element), "body")
+            elif not found and model[1] not in nested and reference.element not in told:
+                told.add(reference.element)
+                message = (
+                    f"The constraint {reference.text!r} attaches to the body {sid!r} ({name}), "
+                    "which this instance of the model does not instance."
+                )
+                related = (end.element, body)
+                yield Hit(
+                    link_rules.BODY_NOT_INSTANCED, reference.element, message, related, "constraint"
+                )
+
+
+CHECKS = (named_parts, attachments, ends)

@@ -1,0 +1,113 @@
+"""Which nodes bodies move, and what is above those (COLLADA 1.5 §node, §instance_rigid_body)."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.meaning.context import Context, FloatRows
+from colladaphy.meaning.scene import degenerate_matrices
+
+__all__ = ["Nodes", "nodes_of", "odd_transforms"]
+
+Array = NDArray[Any]
+
+
+class Nodes:
+    """The nodes of a document as a tree, with the instances of bodies that move them."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.elements = context.ordinals("node")
+        self.targets = {
+            reference.element: context.target(reference.text)
+            for reference in context.references("target", "instance_rigid_body")
+        }
+        """The nodes that instances of bodies move, by the instance; -1 for none."""
+        nodes = set(self.elements.tolist())
+        self.targets = {key: node if node in nodes else -1 for key, node in self.targets.items()}
+        parents: list[int] = context.parent[self.elements].tolist()
+        self.parents = dict(zip(self.elements.tolist(), parents, strict=True))
+        self.holders: defaultdict[int, list[int]] = defaultdict(list)
+        """The nodes that instance each node."""
+        for reference in context.references("url", "instance_node"):
+            target = context.target(reference.text)
+            if target in nodes:
+                self.holders[target].append(int(context.parent[reference.element]))
+        self._places: dict[int, int] = {}
+        self._shown = self._scenes()
+
+    def _scenes(self) -> set[int]:
+        """The visual scenes that are seen; all where none is instanced."""
+        context = self.context
+        references = context.references("url", "instance_visual_scene")
+        shown = {context.target(reference.text) for reference in references}
+        every = set(context.ordinals("visual_scene").tolist())
+        return shown & every or every
+
+    def above(self, node: int) -> int:
+        """The node around a node, or the first that instances it; -1 for none."""
+        parent = int(self.parents[node])
+        if parent in self.parents:
+            return parent
+        return next(iter(self.holders.get(node, ())), -1)
+
+    def chain(self, node: int) -> list[int]:
+        """A node and those above it."""
+        found = [node]
+        known = {node}
+        while (node := self.above(node)) >= 0 and node not in known:
+            found.append(node)
+            known.add(node)
+        return found
+
+    def places(self, node: int) -> int:
+        """In how many places a node stands, in the scenes that are seen."""
+        if node not in self._places:
+            self._places[node] = 0  # for circles
+            parent = self.parents[node]
+            here: int = int(parent in self._shown)
+            if parent in self.parents:
+                here = self.places(parent)
+            here += sum(map(self.places, self.holders.get(node, ())))
+            self._places[node] = here
+        return self._places[node]
+
+
+def nodes_of(context: Context) -> Nodes:
+    """The nodes of a document."""
+    return context.shared(Nodes)
+
+
+def odd_transforms(context: Context) -> dict[int, list[int]]:
+    """The transforms of each node that scale, skew or mirror, but for those that are faulty."""
+    return context.shared(_odd_transforms)
+
+
+def _odd_transforms(context: Context) -> dict[int, list[int]]:
+    found: defaultdict[int, list[int]] = defaultdict(list)
+    for name, width in (("matrix", 16), ("scale", 3), ("skew", 7)):
+        rows = context.rows(FloatRows, name)
+        if not len(rows):
+            continue
+        assert rows.ordinals is not None
+        values = rows.value.values.reshape(-1, width)
+        if name == "matrix":
+            matrices = values.reshape(-1, 4, 4)
+            inner = matrices[:, :3, :3]
+            product = np.einsum("nij,nik->njk", inner, inner)
+            odd = np.abs(product - np.eye(3)).max(axis=(1, 2)) > 1e-4
+            odd |= np.linalg.det(inner) < 0.0
+            wrong, flat = degenerate_matrices(matrices)
+            odd &= ~wrong & ~flat
+        elif name == "scale":
+            odd = (np.abs(values - 1.0) > 2e-6).any(axis=1) & values.all(axis=1)
+        else:
+            odd = values[:, 0] != 0.0
+        odd &= np.isfinite(values).all(axis=1)
+        for element in rows.ordinals[odd].tolist():
+            found[int(context.parent[element])].append(element)
+    return dict(found)

@@ -1,0 +1,105 @@
+"""Nodes that bodies move: alone, in one place, and rigid (COLLADA 1.5 §instance_rigid_body)."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+
+import numpy as np
+
+from colladaphy.links.rules import NOT_RIGID, SEVERAL_PLACES
+from colladaphy.links.steps import matrix_of, own_transforms
+from colladaphy.meaning import physics_rules
+from colladaphy.meaning.body_table import bodies_of
+from colladaphy.meaning.context import Context
+from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.models import ends
+from colladaphy.meaning.node_table import Nodes, nodes_of, odd_transforms
+from colladaphy_schema.scene_columns import NodeTypeRows
+
+__all__ = ["CHECKS"]
+
+
+def rigid(context: Context) -> Iterator[Hit]:
+    """Transforms above bodies that scale, skew or mirror."""
+    odd = odd_transforms(context)
+    if not odd:
+        return
+    nodes = nodes_of(context)
+    users: defaultdict[int, list[int]] = defaultdict(list)
+    for instance, target in nodes.targets.items():
+        if target < 0:
+            continue
+        mine = [element for node in nodes.chain(target) for element in odd.get(node, ())]
+        if len(mine) > 1 and _cancels(context, nodes, target):
+            continue
+        for element in mine:
+            users[element].append(instance)
+    for element, instances in users.items():
+        name = context.name(element)
+        node = context.label(int(context.parent[element]))
+        message = f"The {name} of {node} scales, skews or mirrors, and a body stands in it."
+        yield Hit(NOT_RIGID, element, message, tuple(instances[:3]))
+
+
+def _cancels(context: Context, nodes: Nodes, target: int) -> bool:
+    """Whether several transforms make a rigid one together."""
+    made = np.eye(4)
+    for node in reversed(nodes.chain(target)):
+        own = own_transforms(context.at(NodeTypeRows, np.array([node])))
+        made = made @ (own.matrices[0] if own.matrices else matrix_of(own.poses)[0])
+    inner = made[:3, :3]
+    same = np.abs(inner.T @ inner - np.eye(3)).max() <= 1e-4
+    return bool(same and np.linalg.det(inner) > 0.0)
+
+
+def places(context: Context) -> Iterator[Hit]:
+    """Bodies whose nodes stand in several places."""
+    nodes = nodes_of(context)
+    if not nodes.holders:
+        return
+    for instance, target in nodes.targets.items():
+        if target >= 0 and (count := nodes.places(target)) > 1:
+            message = f"{context.label(target)} stands in {count} places; the first one is taken."
+            yield Hit(SEVERAL_PLACES, instance, message, (target,), "target")
+
+
+def apart(context: Context) -> Iterator[Hit]:
+    """Bodies that move the same node, or nodes within each other."""
+    nodes, bodies = nodes_of(context), bodies_of(context)
+    instances = np.array(sorted(nodes.targets), np.int64)
+    if not len(instances):
+        return
+    scenes = context.ancestor(instances, "physics_scene", "physics_model").tolist()
+    twice = {hit.element for hit in ends(context)}
+    movers: dict[tuple[int, int], int] = {}
+    for instance, scene in zip(instances.tolist(), scenes, strict=True):
+        target = nodes.targets[instance]
+        if target < 0:
+            continue
+        first = movers.setdefault((scene, target), instance)
+        if first != instance and instance not in twice:
+            message = f"{context.label(target)} is moved by another body, too."
+            yield Hit(physics_rules.NODE_SHARED, instance, message, (first, target), "target")
+    if not nodes.holders and not _nested(nodes):
+        return
+    for instance, scene in zip(instances.tolist(), scenes, strict=True):
+        target = nodes.targets[instance]
+        if target < 0:
+            continue
+        for node in nodes.chain(target)[1:]:
+            outer = movers.get((scene, node))
+            if outer is not None and bodies.moves[bodies.row(outer)]:
+                message = (
+                    f"{context.label(target)} stands in {context.label(node)}, which another "
+                    "body moves."
+                )
+                yield Hit(physics_rules.BODIES_NESTED, instance, message, (outer, target), "target")
+                break
+
+
+def _nested(nodes: Nodes) -> bool:
+    return any(parent in nodes.parents for parent in nodes.parents.values())
+
+
+CHECKS = (rigid, places, apart)

@@ -1,0 +1,90 @@
+"""What can be wrong with transforms, cameras and lights in a document that is schema-valid."""
+
+from __future__ import annotations
+
+from colladaphy.findings import Rule, Severity
+
+__all__ = ["RULES"]
+
+TRANSFORM_NUMBER = Rule(
+    "scene-transform-number",
+    Severity.ERROR,
+    "A transform has a number that is not finite.",
+    "Replace NaN and INF by numbers.",
+    "COLLADA 1.5 §node",
+    "Nothing that stands in it has a place.",
+)
+ROTATE_AXIS = Rule(
+    "scene-rotate-axis",
+    Severity.WARNING,
+    "A rotation has an angle, but an axis of length zero.",
+    "Give it an axis: x, y, z, then the angle in degrees.",
+    "COLLADA 1.5 §rotate",
+    "It turns nothing, or makes NaN of everything, from reader to reader.",
+)
+SCALE_ZERO = Rule(
+    "scene-scale-zero",
+    Severity.WARNING,
+    "A scale or matrix makes everything flat.",
+    "Give all three axes a factor other than zero.",
+    "COLLADA 1.5 §scale",
+    "What stands in it has no volume, and the transform cannot be undone.",
+)
+MATRIX_COLUMNS = Rule(
+    "scene-matrix-columns",
+    Severity.WARNING,
+    "The last row of a matrix is not 0 0 0 1.",
+    "Write it row by row: the translation is the last value of each of the first three rows.",
+    "COLLADA 1.5 §matrix",
+    "Written column by column it is read as another transform, without the translation.",
+)
+LOOKAT = Rule(
+    "scene-lookat",
+    Severity.WARNING,
+    "A lookat has no direction.",
+    "The eye, the point of interest and up must not lie on one line.",
+    "COLLADA 1.5 §lookat",
+    "Which way it looks cannot be told.",
+)
+SKEW = Rule(
+    "scene-skew",
+    Severity.WARNING,
+    "A skew has no direction.",
+    "Give it two axes that are not parallel, and an angle between -90 and 90 degrees.",
+    "COLLADA 1.5 §skew",
+)
+CAMERA_CLIP = Rule(
+    "scene-camera-clip",
+    Severity.WARNING,
+    "A camera's near plane is not before its far plane.",
+    "znear is less than zfar, and positive for a perspective.",
+    "COLLADA 1.5 §perspective, §orthographic",
+    "Nothing is seen by it.",
+)
+CAMERA_VIEW = Rule(
+    "scene-camera-view",
+    Severity.WARNING,
+    "A camera sees no area.",
+    "Fields of view are between 0 and 180 degrees; magnifications and ratios are positive.",
+    "COLLADA 1.5 §perspective, §orthographic",
+    "Nothing is seen by it, or everything upside down.",
+)
+LIGHT = Rule(
+    "scene-light",
+    Severity.WARNING,
+    "A value of a light is out of its range.",
+    "Attenuations are not negative and not all zero; a falloff angle is between 0 and 180 degrees.",
+    "COLLADA 1.5 §light",
+)
+
+RULES = (
+    TRANSFORM_NUMBER,
+    ROTATE_AXIS,
+    SCALE_ZERO,
+    MATRIX_COLUMNS,
+    LOOKAT,
+    SKEW,
+    CAMERA_CLIP,
+    CAMERA_VIEW,
+    LIGHT,
+)

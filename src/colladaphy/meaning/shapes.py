@@ -1,0 +1,159 @@
+"""Shapes of bodies: sizes, masses and densities (COLLADA 1.5 §shape, §box … §sphere, §hollow)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.findings import Severity
+from colladaphy.meaning import physics_rules
+from colladaphy.meaning.body_table import bodies_of
+from colladaphy.meaning.context import Context
+from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.shape_table import shapes_of
+from colladaphy_schema.rows import Rows
+
+__all__ = ["CHECKS"]
+
+Array = NDArray[Any]
+
+
+_SAME = 0.02
+"""How far a mass may be from density times volume."""
+
+
+def sizes(context: Context) -> Iterator[Hit]:
+    """Primitives without a size, planes without a normal, planes that move."""
+    shapes, bodies = shapes_of(context), bodies_of(context)
+    for element, message, flat in shapes.faults:
+        severity = Severity.WARNING if flat else None
+        yield Hit(physics_rules.SHAPE_SIZE, element, message, severity=severity)
+    planes = context.children(shapes.rows, "plane", Rows)
+    equations, elements = context.vectors(planes, "equation", 4)
+    with np.errstate(all="ignore"):
+        length = np.linalg.norm(equations[:, :3], axis=1)
+    good = (length > 0.0) & np.isfinite(equations).all(axis=1)
+    for place, row in enumerate(planes.owner.tolist()):
+        if not good[place]:
+            shown = " ".join(f"{value:g}" for value in equations[place].tolist())
+            yield Hit(
+                physics_rules.PLANE_NORMAL,
+                int(elements[place]),
+                f"The equation of the plane is {shown}.",
+            )
+        elif bodies.moves[shapes.holders[row]]:
+            name = context.label(int(bodies.elements[shapes.holders[row]]))
+            yield Hit(
+                physics_rules.PLANE_MOVES, int(elements[place]), f"{name} moves, and is a plane."
+            )
+
+
+def masses(context: Context) -> Iterator[Hit]:
+    """Masses and densities of shapes that are none, or that contradict each other."""
+    shapes, bodies = shapes_of(context), bodies_of(context)
+    moves = bodies.moves[shapes.holders] if len(shapes.holders) else np.zeros(0, np.bool_)
+    has_mass, has_density = shapes.mass_elements >= 0, shapes.density_elements >= 0
+    good_mass = has_mass & (shapes.masses >= 0.0) & (shapes.masses < np.inf)
+    good_density = has_density & (shapes.densities >= 0.0) & (shapes.densities < np.inf)
+    for row in np.flatnonzero(has_mass & ~good_mass).tolist():
+        yield Hit(physics_rules.MASS_VALUE, int(shapes.mass_elements[row]),
+                  f"The mass of a shape is {shapes.masses[row]:g}.")  # fmt: skip
+    for row in np.flatnonzero(has_density & ~good_density).tolist():
+        yield Hit(physics_rules.DENSITY_VALUE, int(shapes.density_elements[row]),
+                  f"The density of a shape is {shapes.densities[row]:g}.")  # fmt: skip
+    zero = good_density & (shapes.densities == 0.0) & moves & ~(shapes.masses > 0.0)
+    for row in np.flatnonzero(zero).tolist():
+        yield Hit(physics_rules.DENSITY_ZERO, int(shapes.density_elements[row]),
+                  "The density is 0, and the body moves.")  # fmt: skip
+    both = good_mass & good_density & ~shapes.hollow
+    expected = shapes.densities * shapes.volumes
+    wrong = both & (np.abs(expected - shapes.masses) > _SAME * np.maximum(expected, shapes.masses))
+    for row in np.flatnonzero(wrong).tolist():
+        message = (
+            f"The mass is {shapes.masses[row]:g}, but the density {shapes.densities[row]:g} times "
+            f"the volume is {expected[row]:g}."
+        )
+        yield Hit(physics_rules.MASS_DENSITY, int(shapes.density_elements[row]), message,
+                  (int(shapes.mass_elements[row]),))  # fmt: skip
+
+
+def totals(context: Context) -> Iterator[Hit]:
+    """Bodies whose mass is not that of their shapes, and those without any."""
+    shapes, bodies = shapes_of(context), bodies_of(context)
+    count = len(bodies.elements)
+    if not len(shapes.elements):
+        return
+    number = np.bincount(shapes.holders, minlength=count)
+    good = (shapes.masses >= 0.0) & (shapes.masses < np.inf)
+    stated = np.bincount(shapes.holders, good, minlength=count)
+    sums = np.bincount(shapes.holders, np.nan_to_num(shapes.masses), minlength=count)
+    whole = (number > 0) & (stated == number) & (sums > 0.0)
+    whole &= (bodies.masses > 0.0) & (bodies.masses < np.inf)
+    wrong = whole & (np.abs(sums - bodies.masses) > 2e-3 * np.maximum(sums, bodies.masses))
+    for row in np.flatnonzero(wrong).tolist():
+        message = (
+            f"The mass is {bodies.masses[row]:g}, but those of the shapes add up to {sums[row]:g}."
+        )
+        yield Hit(physics_rules.MASS_SUM, int(bodies.mass_elements[row]), message)
+    yield from _unweighed(context)
+
+
+def _unweighed(context: Context) -> Iterator[Hit]:
+    shapes, bodies = shapes_of(context), bodies_of(context)
+    count = len(bodies.elements)
+    weighed = np.bincount(
+        shapes.holders, (shapes.mass_elements >= 0) | (shapes.density_elements >= 0),
+        minlength=count,
+    ) > 0  # fmt: skip
+    plane = np.zeros(count, np.bool_)
+    plane[shapes.holders[context.children(shapes.rows, "plane", Rows).owner]] = True
+    thin = np.full(count, -1, np.int64)
+    rows = np.flatnonzero(shapes.hollow & (shapes.mass_elements < 0))[::-1]
+    thin[shapes.holders[rows]] = rows
+    hollow = thin >= 0
+    heavy = weighed | (bodies.mass_elements >= 0)
+    profiled = _profiled(context)
+    for row in np.flatnonzero(~bodies.is_instance & bodies.moves & ~plane).tolist():
+        if profiled[row]:
+            continue
+        if heavy[row] and not hollow[row]:
+            continue
+        moving = bodies.instances(row)
+        moving = moving[bodies.moves[moving]]
+        given = bool(len(moving)) and bool(heavy[moving].all())
+        if hollow[row] and bodies.mass_elements[row] < 0 and not given:
+            element = int(shapes.hollow_elements[thin[row]])
+            message = f"A shape of {context.label(int(bodies.elements[row]))} is hollow."
+            yield Hit(physics_rules.HOLLOW, element, message, (int(bodies.elements[row]),))
+        elif not heavy[row] and not given:
+            message = f"{context.label(int(bodies.elements[row]))} moves, but nobody says its mass."
+            yield Hit(physics_rules.MASS_MISSING, int(bodies.elements[row]), message)
+
+
+def _profiled(context: Context) -> Array:
+    """(n,) which bodies have a profile, or a material with one, which may say the mass."""
+    bodies = bodies_of(context)
+    made = np.zeros(len(bodies.elements), np.bool_)
+    techniques = context.ordinals("technique")
+    above = context.parent[techniques]
+    made[np.isin(bodies.elements, above)] = True
+    extra = context.parent[np.maximum(above, 0)]
+    materials = set(extra[[context.name(each) == "physics_material" for each in extra.tolist()]]
+                    .tolist()) if len(extra) else set()  # fmt: skip
+    if materials:
+        users = [r.element for r in context.references("url", "instance_physics_material")
+                 if context.target(r.text) in materials]  # fmt: skip
+        inline = [each for each in materials if context.name(int(context.parent[each])) in
+                  ("shape", "technique_common")]  # fmt: skip
+        holders = context.ancestor(np.array([*users, *inline], np.int64), "rigid_body",
+                                   "instance_rigid_body")  # fmt: skip
+        mine = np.isin(bodies.elements, holders)
+        made |= mine
+        made[bodies.body[mine & (bodies.body >= 0)]] = True
+    return made
+
+
+CHECKS = (sizes, masses, totals)

@@ -1,0 +1,124 @@
+"""Surfaces of bodies: closed, wound outwards, convex where they say so (§convex_mesh)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from colladaphy.meaning import geometry_rules
+from colladaphy.meaning.context import Context
+from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.shape_table import shapes_of
+from colladaphy.meaning.surface_table import Surface, surface_of
+from colladaphy_schema.rows import Rows
+
+__all__ = ["CHECKS"]
+
+
+_TOLERANCE = 1e-3
+"""How far a convex mesh may be dented, by its extent."""
+
+
+def convex_meshes(context: Context) -> Iterator[Hit]:
+    """Convex meshes that are open, inside out or dented."""
+    rows = context.rows(Rows, "convex_mesh")
+    if not len(rows):
+        return
+    assert rows.ordinals is not None
+    for element, hull_of in zip(
+        rows.ordinals.tolist(), context.texts(rows, "convex_hull_of"), strict=True
+    ):
+        if hull_of is not None:
+            continue
+        geometry = int(context.parent[element])
+        surface = surface_of(context, geometry)
+        if surface is None:
+            continue
+        name = context.label(geometry)
+        if not surface.is_closed:
+            yield Hit(
+                geometry_rules.OPEN, element, f"The convex mesh of {name} has holes.", (geometry,)
+            )
+        elif not surface.is_consistent:
+            yield Hit(
+                geometry_rules.MIXED_WINDING,
+                element,
+                f"Faces of {name} are wound both ways.",
+                (geometry,),
+            )
+        elif abs(surface.volume) <= 1e-9 * surface.extent**3:
+            yield Hit(
+                geometry_rules.NO_VOLUME,
+                element,
+                f"The convex mesh of {name} has no volume.",
+                (geometry,),
+            )
+        elif surface.volume < 0.0:
+            message = f"The faces of {name} are wound inwards."
+            yield Hit(geometry_rules.INWARD, element, message, (geometry,))
+        elif (depth := _dent(surface)) > _TOLERANCE * surface.extent:
+            message = f"{name} is dented by {depth:.3g}."
+            yield Hit(geometry_rules.NOT_CONVEX, element, message, (geometry,))
+
+
+def _dent(surface: Surface) -> float:
+    """How far a closed surface that is wound outwards is from convex across its edges."""
+    points, triangles = surface.points, surface.triangles
+    one, two, three = (points[triangles[:, k]] for k in range(3))
+    normals = np.cross(two - one, three - one)
+    length = np.linalg.norm(normals, axis=1)
+    size = float(length.max(initial=0.0))
+    if not size:
+        return 0.0
+    count = len(points)
+    # All edges of the triangles, those across faces included, and the corner opposite to each.
+    edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    opposite = np.concatenate([triangles[:, (k + 2) % 3] for k in range(3)])
+    owner = np.tile(np.arange(len(triangles)), 3)
+    forward, backward = edges[:, 0] * count + edges[:, 1], edges[:, 1] * count + edges[:, 0]
+    order = np.argsort(forward, kind="stable")
+    place = np.minimum(np.searchsorted(forward[order], backward), len(order) - 1)
+    beside = order[place]
+    good = (forward[beside] == backward) & (length[owner] > 1e-12 * size)
+    here, there = owner[good], opposite[beside[good]]
+    heights = np.sum(normals[here] * (points[there] - one[here]), axis=1) / length[here]
+    return float(heights.max(initial=0.0))
+
+
+def moving_meshes(context: Context) -> Iterator[Hit]:
+    """Meshes of bodies that move whose mass or inertia has to be computed, and cannot."""
+    shapes = shapes_of(context)
+    told: set[int] = set()
+    for row, geometry in shapes.meshes():
+        if geometry in told or not shapes.computed(row):
+            continue
+        told.add(geometry)
+        if context.name(_content(context, geometry)) != "mesh":
+            continue
+        surface = surface_of(context, geometry)
+        if surface is None:
+            continue
+        element = _content(context, geometry)
+        name, related = context.label(geometry), (int(shapes.elements[row]),)
+        if not surface.is_closed:
+            message = f"The mesh of {name} has holes, and a body that moves is made of it."
+            yield Hit(geometry_rules.OPEN, element, message, related)
+        elif not surface.is_consistent:
+            yield Hit(
+                geometry_rules.MIXED_WINDING,
+                element,
+                f"Faces of {name} are wound both ways.",
+                related,
+            )
+        elif abs(surface.volume) <= 1e-9 * surface.extent**3:
+            yield Hit(
+                geometry_rules.NO_VOLUME, element, f"The mesh of {name} has no volume.", related
+            )
+
+
+def _content(context: Context, geometry: int) -> int:
+    return context.first_children("mesh", "convex_mesh").get(geometry, geometry)
+
+
+CHECKS = (convex_meshes, moving_meshes)
