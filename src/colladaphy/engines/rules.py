@@ -58,6 +58,12 @@ MASS = Rule(
     "A body that can move needs a positive mass and a positive definite inertia.",
     "Give the body a mass and an inertia, or fix it.",
 )
+INERTIA_ASSUMED = Rule(
+    "engine-inertia-assumed",
+    Severity.WARNING,
+    "A point mass can move: the engine gives it a small inertia, as it needs one.",
+    "Give the body an inertia.",
+)
 INERTIA_TRIANGLE = Rule(
     "engine-inertia-triangle",
     Severity.ERROR,
@@ -298,6 +304,7 @@ RULES = (
     SEED_UNUSED,
     FRICTIONS,
     MASS,
+    INERTIA_ASSUMED,
     INERTIA_TRIANGLE,
     SHAPE_APPROXIMATED,
     MESH_HULL,

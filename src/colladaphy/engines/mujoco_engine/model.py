@@ -17,7 +17,7 @@ from colladaphy.engines.frames import ORIGIN, Pose
 from colladaphy.engines.mujoco_engine.axes import Freedom, Hanging, hang
 from colladaphy.engines.mujoco_engine.contacts import Surfaces
 from colladaphy.engines.mujoco_engine.forest import Forest, plan
-from colladaphy.engines.mujoco_engine.inertia import principal
+from colladaphy.engines.mujoco_engine.inertia import inertias_of, principal
 from colladaphy.engines.mujoco_engine.loops import close
 from colladaphy.engines.mujoco_engine.settings import Chosen
 from colladaphy.engines.mujoco_engine.shapes import Shapes, shapes_of
@@ -134,6 +134,7 @@ class _Builder:
         self.bodies: dict[int, Any] = {0: spec.worldbody}
         self.hangings: dict[int, Hanging] = {}
         self.geoms: list[tuple[Any, int, int]] = []  # with system id and material
+        self.inertias = inertias_of(world)
         self.rows = {sid: row for row, sid in enumerate(world.sids.tolist())}
 
     def add_fixed(self) -> None:
@@ -164,7 +165,7 @@ class _Builder:
         row = self.rows[sid]
         body.mass = float(self.world.masses[row])
         body.ipos = np.zeros(3)
-        body.inertia, body.iquat = principal(self.world.inertias[row])
+        body.inertia, body.iquat = principal(self.inertias[row])
         body.explicitinertial = True
         self._add_geoms(body, sid)
 

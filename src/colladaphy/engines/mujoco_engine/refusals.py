@@ -11,11 +11,12 @@ import numpy as np
 from colladaphy.engines.jointed import crossed, fastest, joint_findings
 from colladaphy.engines.mujoco_engine.convexity import is_convex
 from colladaphy.engines.mujoco_engine.forest import plan
-from colladaphy.engines.mujoco_engine.inertia import SLACK
+from colladaphy.engines.mujoco_engine.inertia import SLACK, are_points, inertias_of
 from colladaphy.engines.mujoco_engine.loops import can_close
 from colladaphy.engines.mujoco_engine.settings import MujocoOptions, resolve
 from colladaphy.engines.mujoco_engine.shapes import is_round, shapes_of
 from colladaphy.engines.rules import (
+    INERTIA_ASSUMED,
     INERTIA_TRIANGLE,
     JOINT_APPROXIMATED,
     JOINT_INERT,
@@ -80,7 +81,8 @@ def _gravity(world: World) -> Iterator[Finding]:
 
 def _bodies(world: World) -> Iterator[Finding]:
     moving = ~world.fixed
-    inertias = np.asarray(world.inertias)
+    inertias = inertias_of(world)
+    points = moving & are_points(world.masses, np.asarray(world.inertias))
     huge = (np.abs(inertias).max(axis=(1, 2)) > _MOST_MASS) | (world.masses > _MOST_MASS)
     tensors = np.where(huge[:, None, None], np.eye(3), inertias)
     moments = np.linalg.eigvalsh(0.5 * (tensors + np.swapaxes(tensors, 1, 2)))
@@ -92,6 +94,12 @@ def _bodies(world: World) -> Iterator[Finding]:
         [world.positions, world.linear_velocities, world.angular_velocities], axis=1
     )
     huge |= np.any(np.abs(numbers) > MOST, axis=1)
+    for row, moment in zip(
+        np.flatnonzero(points).tolist(), inertias[points, 0, 0].tolist(), strict=True
+    ):
+        body = world.bodies[row]
+        message = f"{body!r} has no inertia: principal moments of {moment:.3g} are assumed."
+        yield INERTIA_ASSUMED.at(message=message)
     for row in np.flatnonzero(massless).tolist():
         body = world.bodies[row]
         yield MASS.at(message=f"{body!r} can move, but has the mass {body.mass:g} and the "
