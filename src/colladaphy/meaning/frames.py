@@ -18,6 +18,7 @@ from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.models import parts_of
 from colladaphy.meaning.node_table import nodes_of, odd_transforms
+from colladaphy.meaning.nodes import doubtful
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
@@ -40,10 +41,17 @@ class _Placed:
         self.rows = {element: row for row, element in enumerate(instances.tolist())}
         odd = set(odd_transforms(context))
         targets = [nodes.targets.get(element, -1) for element in instances.tolist()]
+        unknown = doubtful(context)
         self.known = np.array(
-            [target < 0 or not odd or not odd & set(nodes.chain(target)) for target in targets],
+            [
+                target >= 0
+                and element not in unknown
+                and not (odd and odd & set(nodes.chain(target)))
+                for element, target in zip(instances.tolist(), targets, strict=True)
+            ],
             np.bool_,
         )
+        """Of which instances it can be told where they stand."""
         models = context.parent[instances].tolist()
         parents = {r.element: context.target(r.text) if r.text.strip() else -2
                    for r in context.references("parent", "instance_physics_model")}  # fmt: skip

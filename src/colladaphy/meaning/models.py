@@ -152,6 +152,11 @@ def named_parts(context: Context) -> Iterator[Hit]:
             yield Hit(MISSING, reference.element, message, (), attribute)
 
 
+def _broken(context: Context) -> set[int]:
+    """Instances of models with an instance of a body that is not there."""
+    return {int(context.parent[hit.element]) for hit in named_parts(context)}
+
+
 def attachments(context: Context) -> Iterator[Hit]:
     """What the attachments of constraints refer to; the empty reference is the world."""
     parts, home = context.shared(parts_of), context.resource
@@ -182,6 +187,7 @@ def ends(context: Context) -> Iterator[Hit]:
     }
     nested = set(context.parent[context.ordinals("instance_physics_model")].tolist())
     told: set[int] = set()
+    broken = context.shared(_broken)
     for reference in context.references("constraint", "instance_rigid_constraint"):
         instance = int(context.parent[reference.element])
         model = parts.model(home, instance)
@@ -208,7 +214,12 @@ def ends(context: Context) -> Iterator[Hit]:
                     f"model, so the constraint {reference.text!r} cannot tell which one is meant."
                 )
                 yield Hit(link_rules.BODY_TWICE, found[1], message, (found[0], end.element), "body")
-            elif not found and model[1] not in nested and reference.element not in told:
+            elif (
+                not found
+                and model[1] not in nested
+                and instance not in broken
+                and reference.element not in told
+            ):
                 told.add(reference.element)
                 message = (
                     f"The constraint {reference.text!r} attaches to the body {sid!r} ({name}), "

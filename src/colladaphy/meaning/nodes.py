@@ -17,7 +17,7 @@ from colladaphy.meaning.models import ends
 from colladaphy.meaning.node_table import Nodes, nodes_of, odd_transforms
 from colladaphy_schema.scene_columns import NodeTypeRows
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "doubtful"]
 
 
 def rigid(context: Context) -> Iterator[Hit]:
@@ -53,7 +53,21 @@ def _cancels(context: Context, nodes: Nodes, target: int) -> bool:
     return bool(same and np.linalg.det(inner) > 0.0)
 
 
-def places(context: Context) -> Iterator[Hit]:
+def placed(context: Context) -> Iterator[Hit]:
+    """Bodies whose nodes stand in several places, within each other, or are not theirs alone."""
+    yield from context.shared(_placed)
+
+
+def doubtful(context: Context) -> set[int]:
+    """Instances of bodies of which it cannot be told where they stand, as is told already."""
+    return {hit.element for hit in context.shared(_placed)}
+
+
+def _placed(context: Context) -> list[Hit]:
+    return [*_several(context), *_apart(context)]
+
+
+def _several(context: Context) -> Iterator[Hit]:
     """Bodies whose nodes stand in several places."""
     nodes = nodes_of(context)
     if not nodes.holders:
@@ -64,7 +78,7 @@ def places(context: Context) -> Iterator[Hit]:
             yield Hit(SEVERAL_PLACES, instance, message, (target,), "target")
 
 
-def apart(context: Context) -> Iterator[Hit]:
+def _apart(context: Context) -> Iterator[Hit]:
     """Bodies that move the same node, or nodes within each other."""
     nodes, bodies = nodes_of(context), bodies_of(context)
     instances = np.array(sorted(nodes.targets), np.int64)
@@ -102,4 +116,4 @@ def _nested(nodes: Nodes) -> bool:
     return any(parent in nodes.parents for parent in nodes.parents.values())
 
 
-CHECKS = (rigid, places, apart)
+CHECKS = (rigid, placed)
