@@ -63,6 +63,9 @@ def _document(counts: dict[str, Any]) -> Iterator[str]:
         f"instances: {counts['instance_rigid_constraint']}"
     )
     yield f"  shapes: {_list(counts['shapes'])}"
+    for robot in counts["robots"]:
+        name = robot["name"] or robot["id"] or "(no id)"
+        yield f"  robot {name}: links: {robot['links']}, joints: {robot['joints']}"
     yield f"  physics materials: {counts['physics_material']}"
     yield f"  libraries: {_list(counts['libraries'])}"
     yield f"  profiles: {_list(counts['techniques'])}"

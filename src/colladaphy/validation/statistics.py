@@ -41,7 +41,12 @@ _SKIPPED = frozenset(
     for rule in (mapper_rules.EMPTY_SHAPE, mapper_rules.NO_GEOMETRY, mapper_rules.BAD_VALUE)
 )
 _UNLINKED = frozenset(
-    rule.code for rule in (mapper_rules.CONSTRAINT_SKIPPED, mapper_rules.CONSTRAINT_FAULTY)
+    rule.code
+    for rule in (
+        mapper_rules.CONSTRAINT_SKIPPED,
+        mapper_rules.CONSTRAINT_FAULTY,
+        mapper_rules.JOINT_UNMAPPED,
+    )
 )
 
 
@@ -50,7 +55,8 @@ def describe(
 ) -> dict[str, Any]:
     """Facts about a document of any version, as plain values.
 
-    ``document`` counts what the file says; ``scenes`` lists its physics scenes with their models;
+    ``document`` counts what the file says, and lists the robots, which are its kinematics models;
+    ``scenes`` lists its physics scenes with their models;
     ``world`` counts what could be loaded of the instantiated scenes, and lists what was skipped
     and why. A file that cannot be mended has no ``scenes`` and no ``world``, but ``problems``.
     Raises InputError and XmlError as `colladaphy.read` does.
@@ -119,8 +125,20 @@ def _count(root: etree._Element) -> dict[str, Any]:
         **{name: names[name] for name in _COUNTED},
         "shape": names["shape"],
         "shapes": dict(sorted(shapes.items())),
+        "robots": [_robot(model) for model in root.iter("{*}kinematics_model")],
         "libraries": dict(sorted(libraries.items())),
         "techniques": dict(sorted(profiles.items())),
+    }
+
+
+def _robot(model: etree._Element) -> dict[str, Any]:
+    """Counts of a kinematics model, whose joints may stand in a library."""
+    names = Counter(map(_local, model.iter(etree.Element)))
+    return {
+        "id": model.get("id"),
+        "name": model.get("name"),
+        "links": names["link"],
+        "joints": names["attachment_full"] + names["attachment_start"],
     }
 
 

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+from lxml import etree
 
 import colladaphy
+from colladaphy.cli import run
 from colladaphy.engines import create_engine
-from colladaphy.world import JointKind, World
+from colladaphy.links.names import COLLADA
+from colladaphy.world import JointKind, World, compare
 
 CORPUS = Path(__file__).parents[4] / "shared" / "corpus"
 
@@ -83,3 +87,31 @@ def test_without_gravity_and_at_rest_it_rests(name: str) -> None:
     assert np.abs(world.linear_velocities).max() < 1e-9
     assert np.abs(world.angular_velocities).max() < 1e-9
     assert np.abs(world.positions - before).max() < 1e-9
+
+
+def test_info_tells_robots_with_their_links_and_joints(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["info", str(CORPUS / "urdf-kr10.dae")]) == 0
+    said = capsys.readouterr().out
+    assert "robot kuka_kr10r1100sixx: links: 10, joints: 9" in said
+    assert "joints: fixed 1, hinge 6" in said
+
+
+def test_read_edited_and_saved_the_kinematics_stay(tmp_path: Path) -> None:
+    document = colladaphy.read(CORPUS / "urdf-kr10.dae", repair=True)
+    world = document.load()
+    before = {name: _kept(document.tree, name) for name in _LIBRARIES}
+    document.root.asset.title = "edited"
+    document.write(tmp_path / "robot.dae")
+    again = colladaphy.read(tmp_path / "robot.dae")
+    assert {name: _kept(again.tree, name) for name in _LIBRARIES} == before
+    assert compare(world, again.load()) == []
+
+
+_LIBRARIES = ("kinematics_models", "articulated_systems", "kinematics_scenes", "visual_scenes")
+
+
+def _kept(tree: Any, name: str) -> list[bytes]:
+    found = tree.iter(f"{{{COLLADA}}}library_{name}")
+    kept = [etree.tostring(library, method="c14n") for library in found]
+    assert kept
+    return kept
