@@ -285,5 +285,11 @@ class Rows:
             ordinals=self.ordinals[rows], empty=self.empty_text,
         )  # fmt: skip
 
+    def forget(self) -> None:
+        """Let go of what was read of a document, but for texts; it is read again when asked for."""
+        if self.origin is not None:
+            self.known = {name: known for name, known in self.known.items()
+                          if isinstance(known, list)}  # fmt: skip
+
     def __iter__(self) -> Iterator[int]:
         return iter(range(self._size))
