@@ -157,7 +157,11 @@ class MaterialTable:
         listed = refs.urls if len(places) == len(refs.urls) else [
             refs.urls[place] for place in places.tolist()]  # fmt: skip
         found, errors = tables.pool.follow(
-            tables.materials, listed, homes[places], refs.ordinals[places], "physics_material",
+            tables.materials,
+            listed,
+            homes[places],
+            refs.ordinals[places],
+            "physics_material",
             needed=False,
         )
         rows[places] = found
