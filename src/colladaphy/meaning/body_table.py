@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.meaning.context import Context
-from colladaphy.meaning.models import parts_of
+from colladaphy.meaning.models import instanced_bodies
 from colladaphy_schema.rows import Rows
 
 __all__ = ["Bodies", "bodies_of"]
@@ -55,16 +55,10 @@ class Bodies:
         return made
 
     def _find(self) -> None:
-        context = self.context
-        parts, home = context.shared(parts_of), context.resource
-        rows = {element: row for row, element in enumerate(self.elements.tolist())}
-        for reference in context.references("body", "instance_rigid_body"):
-            model = parts.model(home, int(context.parent[reference.element]))
-            if model is None or model[0] is not home:
-                continue
-            found = parts.named(*model, "rigid_body", reference.text.rpartition("/")[2])
-            if found is not None:
-                self.body[rows[reference.element]] = rows[found]
+        found = instanced_bodies(self.context)
+        good = np.flatnonzero(found.parts >= 0)
+        rows = np.searchsorted(self.elements, found.elements[good])
+        self.body[rows] = np.searchsorted(self.elements, found.parts[good])
         instances = np.flatnonzero(self.is_instance & (self.body >= 0))
         self.instanced: Array = np.zeros(len(self.elements), np.bool_)
         """(n,) which bodies have instances."""

@@ -210,6 +210,11 @@ class Context:
         """The local name of an element."""
         return self.columns.local_name(element)
 
+    def is_named(self, elements: Array, *names: str) -> Array:
+        """Which elements (n,) have one of some names; none where there is no element (-1)."""
+        codes = [code for name in names for code in self.columns.codes_of(c(name))]
+        return np.isin(self.columns.index.codes[np.maximum(elements, 0)], codes) & (elements >= 0)
+
     def label(self, element: int) -> str:
         """What an element is called in a message."""
         for key in ("id", "sid", "name"):
@@ -252,10 +257,24 @@ class Context:
 
     def targets(self, texts: Iterable[str | None]) -> Array:
         """The same for many."""
-        ids = self.resource.ids
+        get = self.resource.ids.get
         return np.array(
-            [ids.get(text.removeprefix("#"), -1) if text else -1 for text in texts], np.int64
+            [get(text[1:] if text[:1] == "#" else text, -1) if text else -1 for text in texts],
+            np.int64,
         )
+
+    def doubtful(self, rows: Rows, attribute: str, expected: tuple[str, ...]) -> list[Reference]:
+        """The references of some rows but for those that lead to an expected element by ``#id``."""
+        texts = self.texts(rows, attribute)
+        get = self.resource.ids.get
+        targets = [get(text[1:], -1) if text and text[0] == "#" else -1 for text in texts]
+        good = self.is_named(np.array(targets, np.int64), *expected)
+        assert rows.ordinals is not None
+        return [
+            Reference(int(rows.ordinals[row]), str(texts[row]))
+            for row in np.flatnonzero(~good).tolist()
+            if texts[row] is not None
+        ]
 
 
 Check = Callable[[Context], Iterable[Hit]]

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from colladaphy.errors import ColladaError
 from colladaphy.links.addresses import split_reference
@@ -16,13 +20,14 @@ from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.links import reference_hits
 from colladaphy_schema.rows import Column, Rows
 
-__all__ = ["CHECKS", "Parts", "parts_of"]
+__all__ = ["CHECKS", "Parts", "ends", "instanced_bodies", "instanced_constraints", "parts_of"]
 
 
 _KINDS = {
-    ("instance_rigid_body", "body"): "rigid_body",
-    ("instance_rigid_constraint", "constraint"): "rigid_constraint",
+    "instance_rigid_body": ("body", "rigid_body"),
+    "instance_rigid_constraint": ("constraint", "rigid_constraint"),
 }
+Array = NDArray[Any]
 
 
 def parts_of(context: Context) -> Parts:
@@ -130,31 +135,78 @@ def _attributes(home: Resource, name: str, attribute: str) -> Iterator[tuple[int
     yield from zip(rows.ordinals.tolist(), home.columns.column(rows, column), strict=True)
 
 
-def named_parts(context: Context) -> Iterator[Hit]:
-    """Instances that name no body, or no constraint, of their model."""
-    parts = context.shared(parts_of)
-    home = context.resource
-    for (name, attribute), kind in _KINDS.items():
-        references = context.references(attribute, name)
-        for reference in references:
-            instance = int(context.parent[reference.element])
-            model = parts.model(home, instance)
+class Instanced:
+    """The instances of bodies, or of constraints, with what they name in their models."""
+
+    def __init__(self, context: Context, name: str) -> None:
+        attribute, kind = _KINDS[name]
+        rows = context.rows(Rows, name)
+        assert rows.ordinals is not None
+        self.elements: Array = rows.ordinals.astype(np.int64)
+        self.texts = [text or "" for text in context.texts(rows, attribute)]
+        self.around: Array = context.parent[rows.ordinals].astype(np.int64)
+        """(n,) the instances of models that they stand in."""
+        parts, home = context.shared(parts_of), context.resource
+        self.parts: Array = np.full(len(rows), -1, np.int64)
+        """(n,) the elements that they name, in this document; -1 for none."""
+        self.lost: Array = np.zeros(len(rows), np.bool_)
+        """(n,) which name nothing, though their model is there."""
+        cuts = np.flatnonzero(self.around[1:] != self.around[:-1]) + 1
+        for mine in np.split(np.arange(len(rows)), cuts) if len(rows) else ():
+            model = parts.model(home, int(self.around[mine[0]]))
             if model is None:
                 continue  # reported at the instance
-            sid = reference.text.rpartition("/")[2]
-            if parts.named(*model, kind, sid) is not None or sid in parts.within(*model, kind):
-                continue
+            known = parts.own(model[0], kind).get(model[1], {})
+            sids = [self.texts[row].rpartition("/")[2] for row in mine.tolist()]
+            found = np.array([known.get(sid, -1) for sid in sids], np.int64)
+            lost = found < 0
+            if lost.any():
+                within = parts.within(*model, kind)
+                for place in np.flatnonzero(lost).tolist():
+                    self.lost[mine[place]] = sids[place] not in within
+            if model[0] is home:
+                self.parts[mine] = found
+
+
+def instanced_bodies(context: Context) -> Instanced:
+    """The instances of bodies of a document."""
+    return context.shared(_bodies)
+
+
+def instanced_constraints(context: Context) -> Instanced:
+    """The instances of constraints of a document."""
+    return context.shared(_constraints)
+
+
+def _bodies(context: Context) -> Instanced:
+    return Instanced(context, "instance_rigid_body")
+
+
+def _constraints(context: Context) -> Instanced:
+    return Instanced(context, "instance_rigid_constraint")
+
+
+def named_parts(context: Context) -> Iterator[Hit]:
+    """Instances that name no body, or no constraint, of their model."""
+    parts, home = context.shared(parts_of), context.resource
+    for found, other in ((instanced_bodies(context), "rigid_constraint"),
+                         (instanced_constraints(context), "rigid_body")):  # fmt: skip
+        kind = "rigid_body" if other == "rigid_constraint" else "rigid_constraint"
+        for row in np.flatnonzero(found.lost).tolist():
+            instance, text = int(found.around[row]), found.texts[row]
+            model = parts.model(home, instance)
             url = home.columns.attribute_of(instance, "url") or ""
-            message = f"The physics model {url!r} has no <{kind}> of sid {reference.text!r}."
-            other = next(iter(set(_KINDS.values()) - {kind}))
-            if parts.named(*model, other, sid) is not None:
-                message = f"{reference.text!r} is a <{other}> of the model {url!r}, not a <{kind}>."
-            yield Hit(MISSING, reference.element, message, (), attribute)
+            message = f"The physics model {url!r} has no <{kind}> of sid {text!r}."
+            if model and parts.named(*model, other, text.rpartition("/")[2]) is not None:
+                message = f"{text!r} is a <{other}> of the model {url!r}, not a <{kind}>."
+            attribute = "body" if kind == "rigid_body" else "constraint"
+            yield Hit(MISSING, int(found.elements[row]), message, (), attribute)
 
 
 def _broken(context: Context) -> set[int]:
     """Instances of models with an instance of a body that is not there."""
-    return {int(context.parent[hit.element]) for hit in named_parts(context)}
+    found = instanced_bodies(context)
+    return set(found.around[found.lost].tolist())
 
 
 def attachments(context: Context) -> Iterator[Hit]:
@@ -177,10 +229,14 @@ def ends(context: Context) -> Iterator[Hit]:
     """Constraints in effect whose bodies are there twice, or not at all."""
     parts = context.shared(parts_of)
     home = context.resource
-    bodies: defaultdict[int, defaultdict[str, list[int]]] = defaultdict(lambda: defaultdict(list))
-    for reference in context.references("body", "instance_rigid_body"):
-        above = int(context.parent[reference.element])
-        bodies[above][reference.text.rpartition("/")[2]].append(reference.element)
+    if not len(context.ordinals("instance_rigid_constraint")):
+        return
+    bodies: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
+    there = instanced_bodies(context)
+    for around, part, element in zip(
+        there.around.tolist(), there.parts.tolist(), there.elements.tolist(), strict=True
+    ):
+        bodies[around, part].append(element)
     attached = {
         name: {int(context.parent[r.element]): r for r in context.references("rigid_body", name)}
         for name in ("ref_attachment", "attachment")
@@ -206,7 +262,7 @@ def ends(context: Context) -> Iterator[Hit]:
             if context.parent[body] != model[1]:
                 continue  # in a model within the model
             sid = home.columns.attribute_of(body, "sid") or ""
-            found = bodies[instance].get(sid, [])
+            found = bodies.get((instance, body), [])
             if len(found) > 1 and found[1] not in told:
                 told.add(found[1])
                 message = (

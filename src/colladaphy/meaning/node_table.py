@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.scene import degenerate_matrices
+from colladaphy_schema.rows import Rows
 
 __all__ = ["Nodes", "nodes_of", "odd_transforms"]
 
@@ -22,13 +23,13 @@ class Nodes:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.elements = context.ordinals("node")
-        self.targets = {
-            reference.element: context.target(reference.text)
-            for reference in context.references("target", "instance_rigid_body")
-        }
+        rows = context.rows(Rows, "instance_rigid_body")
+        assert rows.ordinals is not None
+        targets = context.targets(context.texts(rows, "target"))
+        targets[~context.is_named(targets, "node")] = -1
+        self.targets = dict(zip(rows.ordinals.tolist(), targets.tolist(), strict=True))
         """The nodes that instances of bodies move, by the instance; -1 for none."""
         nodes = set(self.elements.tolist())
-        self.targets = {key: node if node in nodes else -1 for key, node in self.targets.items()}
         parents: list[int] = context.parent[self.elements].tolist()
         self.parents = dict(zip(self.elements.tolist(), parents, strict=True))
         self.holders: defaultdict[int, list[int]] = defaultdict(list)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
 
@@ -16,6 +15,7 @@ from colladaphy.meaning import profile_rules
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.profile_table import profile_of
+from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
 
@@ -44,22 +44,26 @@ def places(context: Context) -> Iterator[Hit]:
     """Elements of the profile where nobody reads them."""
     profile = profile_of(context)
     for name, expected in _PLACES.items():
-        for element in profile.elements(name).tolist():
-            technique = profile.technique(element)
-            if technique < 0:
-                continue
-            if context.columns.attribute_of(technique, "profile") != "pe":
-                other = context.columns.attribute_of(technique, "profile")
-                message = f"The technique is of the profile {other!r}."
-                yield Hit(profile_rules.TECHNIQUE, element, message, (technique,))
-                continue
-            holder = int(context.parent[technique])
-            found = context.name(holder)
-            if found == "extra":
-                found = context.name(int(context.parent[holder]))
-            if found not in expected and int(context.parent[element]) == technique:
-                message = f"<pe:{name}> stands in a <{found}>, not in a <{expected[0]}>."
-                yield Hit(profile_rules.PLACE, element, message, (holder,))
+        elements = profile.elements(name)
+        techniques = context.ancestor(elements, "technique")
+        elements, techniques = elements[techniques >= 0], techniques[techniques >= 0]
+        if not len(elements):
+            continue
+        different, inverse = np.unique(techniques, return_inverse=True)
+        numbers, texts = context.columns.factorized(context.at(Rows, different), "profile")
+        ours = np.array([text == "pe" for text in texts], np.bool_)[numbers][inverse.reshape(-1)]
+        for row in np.flatnonzero(~ours).tolist():
+            other = texts[int(numbers[inverse[row]])]
+            message = f"The technique is of the profile {other!r}."
+            yield Hit(profile_rules.TECHNIQUE, int(elements[row]), message, (int(techniques[row]),))
+        holders = context.parent[techniques]
+        outer = np.where(context.is_named(holders, "extra"), context.parent[holders], holders)
+        wrong = ours & ~context.is_named(outer, *expected)
+        wrong &= context.parent[elements] == techniques
+        for row in np.flatnonzero(wrong).tolist():
+            found = context.name(int(outer[row]))
+            message = f"<pe:{name}> stands in a <{found}>, not in a <{expected[0]}>."
+            yield Hit(profile_rules.PLACE, int(elements[row]), message, (int(holders[row]),))
 
 
 def namespaces(context: Context) -> Iterator[Finding]:
@@ -105,46 +109,44 @@ def ids(context: Context) -> Iterator[Hit]:
     if profile.is_empty:
         return
     for names in (("body", "shape", "union"), ("joint",)):
-        seen: dict[tuple[int, str], int] = {}
-        elements = sorted(element for name in names for element in profile.elements(name).tolist())
-        if not elements:
+        elements = np.sort(np.concatenate([profile.elements(name) for name in names]))
+        if not len(elements):
             continue
-        models = context.ancestor(np.array(elements), "physics_model").tolist()
-        for element, model in zip(elements, models, strict=True):
-            sid = context.columns.attribute_of(element, "sid")
-            if sid is None or model < 0:
-                continue
-            key = (model, str(int(sid)))
+        texts = context.texts(context.at(Rows, elements), "sid")
+        there = np.array([text is not None for text in texts], np.bool_)
+        models = context.ancestor(elements[there], "physics_model")
+        keys = list(
+            zip(models.tolist(), [int(text) for text in texts if text is not None], strict=True)
+        )
+        if len(set(keys)) == len(keys):
+            continue
+        seen: dict[tuple[int, int], int] = {}
+        for element, key in zip(elements[there].tolist(), keys, strict=True):
             first = seen.setdefault(key, element)
-            if first != element:
-                message = f"The system id {sid} is that of another one in the model."
+            if first != element and key[0] >= 0:
+                message = f"The system id {key[1]} is that of another one in the model."
                 yield Hit(profile_rules.SYSTEM_ID, element, message, (first,), "sid")
 
 
 def unions(context: Context) -> Iterator[Hit]:
     """Profiles of bodies with another number of shapes."""
     profile = profile_of(context)
-    bodies = profile.elements("body")
-    if not len(bodies):
+    bodies, shapes = profile.elements("body"), profile.elements("shape")
+    if not len(bodies) or not len(shapes):
         return
-    leaves: defaultdict[int, int] = defaultdict(int)
-    shapes = profile.elements("shape")
     top = _holders(context, shapes)
-    for body in top.tolist():
-        leaves[body] += 1
-    stated: defaultdict[int, int] = defaultdict(int)
-    own = context.ordinals("shape")
-    for body in context.ancestor(own, "rigid_body", "instance_rigid_body").tolist():
-        stated[body] += 1
-    for element in bodies.tolist():
-        body = profile.holder(element)
-        if context.name(body) != "rigid_body" or not leaves[element]:
-            continue
-        if leaves[element] != stated[body]:
-            inner = profile.child(element, "union")
-            inner = profile.child(element, "shape") if inner < 0 else inner
-            message = f"{leaves[element]} shapes in the profile, but {stated[body]} in the body."
-            yield Hit(profile_rules.UNION, inner, message, (body,))
+    leaves = np.bincount(np.searchsorted(bodies, top[top >= 0]), minlength=len(bodies))
+    techniques = context.ancestor(bodies, "technique")
+    holders = np.where(techniques >= 0, context.parent[techniques], -1)
+    own = context.ancestor(context.ordinals("shape"), "rigid_body", "instance_rigid_body")
+    begin, end = np.searchsorted(own, holders), np.searchsorted(own, holders, side="right")
+    wrong = (leaves > 0) & (leaves != end - begin) & context.is_named(holders, "rigid_body")
+    for row in np.flatnonzero(wrong).tolist():
+        element = int(bodies[row])
+        inner = profile.child(element, "union")
+        inner = profile.child(element, "shape") if inner < 0 else inner
+        message = f"{leaves[row]} shapes in the profile, but {end[row] - begin[row]} in the body."
+        yield Hit(profile_rules.UNION, inner, message, (int(holders[row]),))
 
 
 def _holders(context: Context, elements: Array) -> Array:

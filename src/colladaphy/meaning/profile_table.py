@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.links.names import c, p
+from colladaphy.links.names import p
 from colladaphy.meaning.context import Context, FloatRows
 
 __all__ = ["Profile", "profile_of"]
@@ -38,24 +38,20 @@ class Profile:
             )
         return self._firsts[name].get(parent, -1)
 
-    def numbers(self, element: int) -> Array:
-        """The numbers in an element."""
-        rows = self.context.at(FloatRows, np.array([element]))
-        return rows.value[0]
+    def values(self, name: str, width: int, *outer: str) -> tuple[Array, Array, Array]:
+        """Elements of a name in elements of others, these, and the numbers (n, width) in them."""
+        found = self.elements(name)
+        above = self.context.parent[found]
+        codes = [code for each in outer for code in self.context.columns.codes_of(p(each))]
+        mine = np.isin(self.context.columns.index.codes[above], codes)
+        found, above = found[mine], above[mine]
+        lists = self.context.at(FloatRows, found).value
+        return found, above, lists.values.reshape(len(found), width)
 
-    def holder(self, element: int) -> int:
-        """The COLLADA element that the technique around an element belongs to; -1 for none."""
-        technique = self.technique(element)
-        return -1 if technique < 0 else int(self.context.parent[technique])
-
-    def technique(self, element: int) -> int:
-        """The technique around an element; -1 for none."""
-        codes = self.context.columns.codes_of(c("technique"))
-        index = self.context.columns.index
-        current = int(index.parent[element])
-        while current >= 0 and int(index.codes[current]) not in codes:
-            current = int(index.parent[current])
-        return current
+    def holders(self, elements: Array) -> Array:
+        """The COLLADA elements (n,) whose techniques elements stand in; -1 for none."""
+        techniques = self.context.ancestor(elements, "technique")
+        return np.where(techniques >= 0, self.context.parent[techniques], -1)
 
     @property
     def is_empty(self) -> bool:

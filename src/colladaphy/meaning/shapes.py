@@ -141,18 +141,19 @@ def _profiled(context: Context) -> Array:
     above = context.parent[techniques]
     made[np.isin(bodies.elements, above)] = True
     extra = context.parent[np.maximum(above, 0)]
-    materials = set(extra[[context.name(each) == "physics_material" for each in extra.tolist()]]
-                    .tolist()) if len(extra) else set()  # fmt: skip
-    if materials:
-        users = [r.element for r in context.references("url", "instance_physics_material")
-                 if context.target(r.text) in materials]  # fmt: skip
-        inline = [each for each in materials if context.name(int(context.parent[each])) in
-                  ("shape", "technique_common")]  # fmt: skip
-        holders = context.ancestor(np.array([*users, *inline], np.int64), "rigid_body",
-                                   "instance_rigid_body")  # fmt: skip
-        mine = np.isin(bodies.elements, holders)
-        made |= mine
-        made[bodies.body[mine & (bodies.body >= 0)]] = True
+    materials = np.unique(extra[context.is_named(extra, "physics_material")])
+    if len(materials):
+        users = context.rows(Rows, "instance_physics_material")
+        assert users.ordinals is not None
+        texts = context.texts(users, "url")
+        mine = users.ordinals[np.isin(context.targets(texts), materials)]
+        inline = materials[context.is_within(materials, "shape", "technique_common")]
+        holders = context.ancestor(
+            np.concatenate([mine, inline]), "rigid_body", "instance_rigid_body"
+        )
+        found = np.isin(bodies.elements, holders)
+        made |= found
+        made[bodies.body[found & (bodies.body >= 0)]] = True
     return made
 
 

@@ -58,47 +58,42 @@ def _hit(what: str, element: int, stated: Array, kept: Array, other: int) -> Hit
 
 def masses(context: Context) -> Iterator[Hit]:
     """Masses of bodies."""
-    profile = profile_of(context)
-    bodies = bodies_of(context)
-    for element in profile.elements("body").tolist():
-        kept = profile.child(element, "mass")
-        row = bodies.row(profile.holder(element))
-        if kept < 0 or row < 0 or bodies.mass_elements[row] < 0:
+    profile, bodies = profile_of(context), bodies_of(context)
+    kept, _, values = profile.values("mass", 1, "body")
+    for element, holder, value in zip(
+        kept.tolist(), profile.holders(kept).tolist(), values, strict=True
+    ):
+        row = bodies.row(holder)
+        if row < 0 or bodies.mass_elements[row] < 0:
             continue
-        stated, value = bodies.masses[row : row + 1], profile.numbers(kept)
+        stated = bodies.masses[row : row + 1]
         if not _same(stated, value):
-            yield _hit("mass", kept, stated, value, int(bodies.mass_elements[row]))
+            yield _hit("mass", element, stated, value, int(bodies.mass_elements[row]))
 
 
 def sizes(context: Context) -> Iterator[Hit]:
     """Sizes of shapes; the shapes of the profile stand for those of the body, in their order."""
     profile = profile_of(context)
-    bodies = profile.elements("body")
-    if not len(bodies):
-        return
-    shapes = shapes_of(context)
-    kinds = [
-        (context.vectors(context.children(shapes.rows, outer, Rows), size, width), factor,
-         context.children(shapes.rows, outer, Rows).owner, kind, name)
-        for kind, name, outer, size, width, factor in _SIZES
-    ]  # fmt: skip
-    own = {element: row for row, element in enumerate(shapes.elements.tolist())}
-    pairs = _paired(context, profile)
-    for (values, elements), factor, owner, kind, name in kinds:
-        rows = dict(zip(owner.tolist(), range(len(owner)), strict=True))
-        for shape, kept_shape in pairs:
-            inner = profile.child(kept_shape, kind)
-            kept = -1 if inner < 0 else profile.child(inner, name)
-            row = rows.get(own[shape], -1)
-            if kept < 0 or row < 0:
-                continue
-            stated, value = values[row] * factor, profile.numbers(kept)
-            if not _same(stated, value):
-                yield _hit(f"{name} of the {kind}", kept, stated, value, int(elements[row]))
+    pairs: dict[int, int] | None = None
+    for kind, name, outer, size, width, factor in _SIZES:
+        kept, around, values = profile.values(name, width, kind)
+        if not len(kept):
+            continue
+        if pairs is None:
+            pairs = _paired(context, profile)
+        shapes = shapes_of(context)
+        rows = context.children(shapes.rows, outer, Rows)
+        stated, elements = context.vectors(rows, size, width)
+        at = dict(zip(shapes.elements[rows.owner].tolist(), range(len(rows)), strict=True))
+        for place, shape in enumerate(context.parent[around].tolist()):
+            row = at.get(pairs.get(shape, -1), -1)
+            if row >= 0 and not _same(stated[row] * factor, values[place]):
+                yield _hit(f"{name} of the {kind}", int(kept[place]), stated[row] * factor,
+                           values[place], int(elements[row]))  # fmt: skip
 
 
-def _paired(context: Context, profile: Profile) -> list[tuple[int, int]]:
-    """Shapes of bodies with those of their profiles, where there are as many."""
+def _paired(context: Context, profile: Profile) -> dict[int, int]:
+    """The shapes of bodies by those of their profiles, where there are as many."""
     own: dict[int, list[int]] = {}
     elements = context.ordinals("shape")
     for element, body in zip(
@@ -106,63 +101,75 @@ def _paired(context: Context, profile: Profile) -> list[tuple[int, int]]:
     ):
         own.setdefault(body, []).append(element)
     kept: dict[int, list[int]] = {}
-    for element in profile.elements("shape").tolist():
-        kept.setdefault(profile.holder(element), []).append(element)
-    return [
-        pair
+    inner = profile.elements("shape")
+    for element, body in zip(inner.tolist(), profile.holders(inner).tolist(), strict=True):
+        kept.setdefault(body, []).append(element)
+    return {
+        one: other
         for body, mine in own.items()
         if len(mine) == len(kept.get(body, ()))
-        for pair in zip(mine, kept[body], strict=True)
-    ]
+        for one, other in zip(kept[body], mine, strict=True)
+    }
 
 
 def motions(context: Context) -> Iterator[Hit]:
     """Orientations, positions and velocities of instances."""
     profile = profile_of(context)
-    elements = profile.elements("motion")
-    if not len(elements):
+    yield from _velocities(context, profile)
+    turns, turned, orientations = profile.values("orientation", 4, "motion")
+    places, placed, positions = profile.values("position", 3, "motion")
+    if not len(turns) and not len(places):
         return
-    holders = [profile.holder(element) for element in elements.tolist()]
-    yield from _velocities(context, profile, elements.tolist(), holders)
     nodes, odd = nodes_of(context), odd_transforms(context)
-    targets = [nodes.targets.get(holder, -1) for holder in holders]
-    parents = {
+    elements = np.unique(np.concatenate([turned, placed]))
+    holders = profile.holders(elements)
+    targets = np.array([nodes.targets.get(holder, -1) for holder in holders.tolist()], np.int64)
+    parents = [
         reference.element
         for reference in context.references("parent", "instance_physics_model")
         if reference.text.strip()
-    }
+    ]
     models = context.ordinals("instance_physics_model")
-    nested = set(models[context.is_within(models, "physics_model")].tolist())
-    good = [
-        place for place, (target, holder) in enumerate(zip(targets, holders, strict=True))
-        if target >= 0 and int(context.parent[holder]) not in parents
-        and int(context.parent[holder]) not in nested
-        and not (odd and any(node in odd for node in nodes.chain(target)))
-    ]  # fmt: skip
-    if not good:
+    nested = models[context.is_within(models, "physics_model")]
+    around = context.parent[holders]
+    good = (targets >= 0) & ~np.isin(around, parents) & ~np.isin(around, nested)
+    if odd:
+        good[good] = [not odd.keys() & set(nodes.chain(node)) for node in targets[good].tolist()]
+    elements, holders, targets = elements[good], holders[good], targets[good]
+    if not len(elements):
         return
     table = context.placement.nodes
-    rows = np.array([table.row_of(0, targets[place]) for place in good], np.int64)
-    poses, _ = context.placement.poses(rows)
-    inner, single = _inner_poses(context, [holders[place] for place in good])
+    poses, _ = context.placement.poses(
+        np.array([table.row_of(0, node) for node in targets.tolist()], np.int64)
+    )
+    inner, single = _inner_poses(context, holders.tolist())
     whole = poses.then(inner)
-    for at, place in enumerate(good):
-        kept = profile.child(int(elements[place]), "orientation")
-        if kept >= 0 and (value := profile.numbers(kept)).any():
-            mine = unit_quaternions(value[None])[0]
-            stated = whole.orientations[at]
-            if min(np.abs(mine - stated).max(), np.abs(mine + stated).max()) > _TURN:
-                yield _hit("orientation", kept, stated, value, targets[place])
-        kept = profile.child(int(elements[place]), "position")
-        if kept >= 0 and single[at]:
-            value, stated = profile.numbers(kept), whole.positions[at]
-            scale = max(np.abs(value).max(), np.abs(stated).max(),
-                        np.abs(inner.positions[at]).max())  # fmt: skip
-            if np.abs(value - stated).max() > 10.0 * _DIGITS * scale:
-                yield _hit("position", kept, stated, value, targets[place])
+    mine, at = _matched(elements, turned)
+    units = unit_quaternions(orientations[mine])
+    stated = whole.orientations[at]
+    apart = np.minimum(np.abs(units - stated).max(axis=1, initial=0.0),
+                       np.abs(units + stated).max(axis=1, initial=0.0))  # fmt: skip
+    for row in np.flatnonzero((apart > _TURN) & orientations[mine].any(axis=1)).tolist():
+        yield _hit("orientation", int(turns[mine[row]]), stated[row], orientations[mine[row]],
+                   int(targets[at[row]]))  # fmt: skip
+    mine, at = _matched(elements, placed)
+    stated = whole.positions[at]
+    columns = (positions[mine], stated, inner.positions[at])
+    scale = np.max([np.abs(column).max(axis=1, initial=0.0) for column in columns], axis=0)
+    apart = np.abs(positions[mine] - stated).max(axis=1, initial=0.0)
+    for row in np.flatnonzero((apart > 10.0 * _DIGITS * scale) & single[at]).tolist():
+        yield _hit("position", int(places[mine[row]]), stated[row], positions[mine[row]],
+                   int(targets[at[row]]))  # fmt: skip
 
 
-def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, list[bool]]:
+def _matched(elements: Array, wanted: Array) -> tuple[Array, Array]:
+    """Places in `wanted` whose element is one of `elements`, ascending, and its place there."""
+    at = np.minimum(np.searchsorted(elements, wanted), len(elements) - 1)
+    mine = np.flatnonzero(elements[at] == wanted)
+    return mine, at[mine]
+
+
+def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, Array]:
     """The frames of Worlds' bodies in their rigid_bodies, and whether the place is known too.
 
     A body of one shape has the frame of that shape, one of several has its own.
@@ -182,7 +189,7 @@ def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, list[bo
     frames = set(context.ancestor(context.ordinals("mass_frame"), "rigid_body",
                                   "instance_rigid_body").tolist())  # fmt: skip
     made = Poses.none(len(instances))
-    known = [False] * len(instances)
+    known = np.zeros(len(instances), np.bool_)
     for at, instance in enumerate(instances):
         row = bodies.row(instance)
         begin, end = np.searchsorted(holders, (row, row + 1))
@@ -206,24 +213,24 @@ def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, list[bo
     return made, known
 
 
-def _velocities(
-    context: Context, profile: Profile, elements: list[int], holders: list[int]
-) -> Iterator[Hit]:
+def _velocities(context: Context, profile: Profile) -> Iterator[Hit]:
     instances = context.rows(Rows, "instance_rigid_body")
     common = context.children(instances, "technique_common", Rows)
     assert instances.ordinals is not None
-    at = {int(instances.ordinals[owner]): row for row, owner in enumerate(common.owner.tolist())}
     for name, other, factor in (
         ("linear_velocity", "velocity", 1.0), ("angular_velocity", "angular_velocity", DEGREE),
     ):  # fmt: skip
-        values, places = context.vectors(common, other, 3)
-        for element, holder in zip(elements, holders, strict=True):
-            kept, row = profile.child(element, name), at.get(holder, -1)
-            if kept < 0 or row < 0 or places[row] < 0:
-                continue
-            stated, value = values[row] * factor, profile.numbers(kept)
-            if not _same(stated, value):
-                yield _hit(name.replace("_", " "), kept, stated, value, int(places[row]))
+        kept, _, values = profile.values(name, 3, "motion")
+        if not len(kept):
+            continue
+        stated, places = context.vectors(common, other, 3)
+        mine, at = _matched(instances.ordinals[common.owner], profile.holders(kept))
+        one, two = stated[at] * factor, values[mine]
+        scale = np.maximum(np.abs(one), np.abs(two)).max(axis=1, initial=0.0)
+        apart = np.abs(one - two).max(axis=1, initial=0.0) > _DIGITS * scale
+        for row in np.flatnonzero(apart & (places[at] >= 0)).tolist():
+            yield _hit(name.replace("_", " "), int(kept[mine[row]]), one[row], two[row],
+                       int(places[at[row]]))  # fmt: skip
 
 
 def worlds(context: Context) -> Iterator[Hit]:
@@ -237,14 +244,14 @@ def worlds(context: Context) -> Iterator[Hit]:
     assert rows.ordinals is not None
     at = {int(rows.ordinals[owner]): row for row, owner in enumerate(common.owner.tolist())}
     for name, width in (("gravity", 3), ("time_step", 1)):
-        values, places = context.vectors(common, name, width)
-        for element in elements.tolist():
-            kept, row = profile.child(element, name), at.get(profile.holder(element), -1)
-            if kept < 0 or row < 0 or places[row] < 0:
-                continue
-            value = profile.numbers(kept)
-            if not _same(values[row], value):
-                yield _hit(name.replace("_", " "), kept, values[row], value, int(places[row]))
+        stated, places = context.vectors(common, name, width)
+        kept, _, values = profile.values(name, width, "world")
+        for element, holder, value in zip(
+            kept.tolist(), profile.holders(kept).tolist(), values, strict=True
+        ):
+            row = at.get(holder, -1)
+            if row >= 0 and places[row] >= 0 and not _same(stated[row], value):
+                yield _hit(name.replace("_", " "), element, stated[row], value, int(places[row]))
 
 
 CHECKS = (masses, sizes, motions, worlds)

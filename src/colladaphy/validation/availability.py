@@ -7,18 +7,18 @@ from pathlib import Path
 from posixpath import dirname, join, normpath
 
 from colladaphy.errors import InputError
-from colladaphy.source import Parsed
+from colladaphy.source import Loaded
 from colladaphy.source.references import ArchiveOrigin, FolderOrigin, relative_name
 
 __all__ = ["availability"]
 
 
-def availability(parsed: Parsed) -> Callable[[str], str | None] | None:
+def availability(loaded: Loaded) -> Callable[[str], str | None] | None:
     """A function that says why a file cannot be had: "missing", "outside", or None if it can.
 
     None for documents without a folder or an archive. Nothing outside of these is looked at.
     """
-    origin = parsed.origin
+    origin = loaded.origin
     if isinstance(origin, FolderOrigin):
         return lambda url: _in_folder(origin, url)
     if isinstance(origin, ArchiveOrigin):

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from colladaphy.errors import InputError, XmlError
-from colladaphy.findings import Report, unchanging
-from colladaphy.gate import gate
+from colladaphy.errors import DocumentError, InputError, XmlError
+from colladaphy.findings import Report, Severity, unchanging
+from colladaphy.gate import accepts, gate
 from colladaphy.gate.numerals import incomplete_numbers
+from colladaphy.links import rules as link_rules
 from colladaphy.links.resource import Resource
-from colladaphy.meaning import check
-from colladaphy.source import Limits, Parsed, Source, load, parse_loaded
+from colladaphy.source import Limits, Loaded, Source, load, parse_loaded
 from colladaphy.source import rules as source_rules
 from colladaphy.source.places import locate
 from colladaphy.validation.availability import availability
+
+if TYPE_CHECKING:
+    from lxml import etree
 
 __all__ = ["validate"]
 
@@ -27,6 +31,8 @@ _UNREADABLE = frozenset(
         source_rules.NOT_BINARY,
     )
 )
+_LARGE = 1 << 16
+"""Bytes from which a tree costs more than to look first whether one is needed."""
 
 
 def validate(source: Source, *, limits: Limits | None = None) -> Report:
@@ -44,19 +50,28 @@ def validate(source: Source, *, limits: Limits | None = None) -> Report:
         file = next((finding.file for finding in error.findings if finding.file), None)
         return Report(file, list(error.findings))
     report = Report(loaded.file)
-    try:
-        parsed = parse_loaded(loaded)
-    except XmlError as error:
-        report.extend(error.findings)
-        return report
-    report.extend(gate(parsed.tree))
-    report.extend(incomplete_numbers(parsed.tree, loaded.data))
-    if report.valid:
-        with unchanging():
-            resource = _resource(parsed, loaded.data, Report(parsed.file), {})
-            report.extend(check(resource, availability(parsed)))
+    if len(loaded.data) >= _LARGE and accepts(loaded.data, limits):
+        # Nothing is wrong with it up to here, and no tree is needed to know it.
+        _check_meaning(report, loaded, None)
+    else:
+        try:
+            parsed = parse_loaded(loaded)
+        except XmlError as error:
+            report.extend(error.findings)
+            return report
+        report.extend(gate(parsed.tree))
+        report.extend(incomplete_numbers(parsed.tree, loaded.data))
+        if report.valid:
+            _check_meaning(report, loaded, parsed.tree)
     _locate(report, loaded.data)
     return report
+
+
+def _check_meaning(report: Report, loaded: Loaded, tree: etree._ElementTree | None) -> None:
+    from colladaphy.meaning import check
+
+    with unchanging():
+        report.extend(check(_resource(loaded, tree, {}), availability(loaded)))
 
 
 def _locate(report: Report, data: bytes) -> None:
@@ -74,11 +89,22 @@ def _locate(report: Report, data: bytes) -> None:
 
 
 def _resource(
-    parsed: Parsed, data: bytes | None, report: Report, family: dict[str, Resource]
+    loaded: Loaded, tree: etree._ElementTree | None, family: dict[str, Resource]
 ) -> Resource:
-    def opener(file: str) -> Resource:
-        other = parsed.parse_relative(file)
-        return _resource(other, None, Report(other.file), family)
+    """A document, and the way to those that it refers to, which have to be valid too."""
+    refused: dict[str, DocumentError] = {}
 
-    return Resource(parsed.tree, data, file=parsed.file, report=report, opener=opener,
-                    family=family)  # fmt: skip
+    def opener(file: str) -> Resource:
+        if file in refused:
+            raise refused[file]
+        other = loaded.load_relative(file)
+        faults = [finding for finding in gate(parse_loaded(other).tree)
+                  if finding.severity is Severity.ERROR]  # fmt: skip
+        if faults:
+            message = f"The document {file!r} is not valid: {faults[0].message}"
+            refused[file] = DocumentError(link_rules.MISSING.at(message=message))
+            raise refused[file]
+        return _resource(other, None, family)
+
+    return Resource(tree, loaded.data, parser=lambda: parse_loaded(loaded).tree, file=loaded.file,
+                    report=Report(loaded.file), opener=opener, family=family)  # fmt: skip
