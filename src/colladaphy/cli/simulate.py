@@ -19,7 +19,8 @@ from colladaphy.cli.console import note, say
 from colladaphy.cli.files import source_of, target_of
 
 if TYPE_CHECKING:
-    from colladaphy.engines import Checkpoints, Summary, Trajectory
+    from colladaphy.document import Document
+    from colladaphy.engines import Checkpoints, Simulation, Summary, Trajectory
     from colladaphy.findings import Finding
     from colladaphy.world import World
 
@@ -100,22 +101,26 @@ def command(
 ) -> int:
     """Run the World of the document IN, and write what became of it to OUT.
 
+    OUT, and every checkpoint, is IN with the World written back into it: cameras, lights, visuals
+    and all else of IN is still there.
+
     Interrupted (Ctrl-C or a polite kill), it writes a checkpoint and says how to go on; the run
     that is resumed equals the run that was not interrupted, to the last bit, if both write their
     checkpoints at the same steps.
     """
     from colladaphy.engines import Simulation
 
-    world = _read(source)
+    document, world = _read(source)
     goal = world.step_count + steps
     checkpoints = _series(source, folder, keep, resume=resume, begin=bool(interval))
     if resume:
         simulation = Simulation.resume(checkpoints.folder, engine, dt, seed)
         _tell(simulation.report.findings)
-        _compare(world, simulation.world)
+        if _is_same(world, simulation.world):
+            simulation.document = document
         note(f"Resumed at step {simulation.world.step_count}.")
     else:
-        simulation = Simulation(world, engine, dt, seed)
+        simulation = Simulation(world, engine, dt, seed, document=document)
         _tell(simulation.report.findings)
     before = simulation.world.step_count
     recorder = _recorder(trajectory, before) if trajectory else None
@@ -143,7 +148,7 @@ def command(
             note(f"Interrupted at step {summary.step_count}; checkpoint: {path}")
             note(f"Go on with: {_again(checkpoints.folder)}")
     if target is not None and not stopped:
-        colladaphy.write(simulation.world, target_of(target))
+        _write(simulation, source, target)
     if target != "-":
         _report(summary, summary.step_count - before, spent)
     return EXIT_INTERRUPTED if stopped else 0
@@ -176,13 +181,32 @@ def _series(
     return checkpoints
 
 
-def _compare(scene: World, resumed: World) -> None:
-    """Say so where the document has become another one than that of the checkpoint."""
+def _write(simulation: Simulation, source: str, target: str) -> None:
+    """Write the World back into the document, or by itself where that would lose other files."""
+    document, world = simulation.document, simulation.world
+    assert document is not None
+    folders = {Path(file).resolve().parent for file in (source, target)}
+    if document.related and len(folders) > 1:
+        others = ", ".join(Path(file).name for file in document.related)
+        note(f"warning: IN refers to {others}, not to be found from OUT's folder: OUT is the World "
+             "alone. Write OUT beside IN to keep all else.")  # fmt: skip
+        colladaphy.write(world, target_of(target))
+        return
+    known = len(document.report)
+    document.update(world)
+    _tell(document.report.findings[known:])
+    document.write(target_of(target))
+
+
+def _is_same(scene: World, resumed: World) -> bool:
+    """Whether the document is still that of the checkpoint; says so where it is another one."""
     from colladaphy.engines import digest
 
     scene.time_step = resumed.time_step
     if digest(scene, motion=False) != digest(resumed, motion=False):
         note("warning: IN is not the scene of this checkpoint; the checkpoint goes on.")
+        return False
+    return True
 
 
 def _recorder(file: str, step_count: int) -> Trajectory:
@@ -217,13 +241,13 @@ def _beside(source: str) -> str:
     return str(Path(source).with_suffix(".checkpoints"))
 
 
-def _read(source: str) -> World:
+def _read(source: str) -> tuple[Document, World]:
     document = colladaphy.read(source_of(source))
     _tell(document.report.findings)
     known = len(document.report)
     world: World = document.load()
     _tell(document.report.findings[known:])
-    return world
+    return document, world
 
 
 def _tell(findings: list[Finding]) -> None:

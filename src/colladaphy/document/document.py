@@ -12,6 +12,7 @@ from colladaphy.document.adding import with_scene
 from colladaphy.document.finding import find
 from colladaphy.document.merge import merge
 from colladaphy.document.scenes import Choosable, Model, Scene, Scenes
+from colladaphy.document.updating import updated
 from colladaphy.document.values import schema_errors
 from colladaphy.document.writing import Output, write_document
 from colladaphy.errors import DocumentError
@@ -85,6 +86,12 @@ class Document(Choosable):
     def file(self) -> str | None:
         """The name of the file, for messages."""
         return self._resource.file
+
+    @property
+    def related(self) -> list[str]:
+        """The files of other documents that references in this one were followed to."""
+        others = (other for other in self._resource.family.values() if other is not self._resource)
+        return sorted({other.file or "?" for other in others} - {self.file or ""})
 
     @property
     def tolerant(self) -> bool:
@@ -208,12 +215,8 @@ class Document(Choosable):
         """Load models of scenes; what `Scene.load` and `Model.load` do."""
         scenes, models = list(scenes), list(models)
         resource = scenes[0].root if scenes else self._current()
-        chosen = Chosen(
-            [(scene.resource, scene.number) for scene in scenes],
-            [(model.scene.resource, model.number) for model in models],
-        )
         with schema_errors(resource):
-            return load(resource, chosen, world, **options)
+            return load(resource, _chosen(scenes, models), world, **options)
 
     def add_scene(self, world: World, id: str, *, options: WriteOptions | None = None) -> Scene:
         """Store a World as one more physics scene, which is instantiated; all else is kept.
@@ -222,12 +225,47 @@ class Document(Choosable):
         the World's unit or up axis is not the document's.
         """
         tree = self._merged().tree
+        self._same_unit(world)
+        self._replace(with_scene(tree, world, id, options))
+        return self.scenes[id]
+
+    def update(self, world: World, *, scenes: Iterable[Scene | str] | None = None) -> None:
+        """Write a World that was loaded from this document back into it; all else is kept.
+
+        Poses, velocities and changed values of bodies and joints are set where they stand, bodies
+        and joints that are gone are taken out, new ones are added, and gravity, time step, clock
+        and an engine's state go to the first of the scenes; `scenes` are those that the World was
+        loaded from, where these are not the instantiated ones. Nodes that a body is bound to are
+        moved with all that is in them. What is read back equals the World to the last bit; where
+        it cannot, and where a body needed a node or a model of its own, `report` says so.
+
+        `root` has to be taken anew afterwards. Raises DocumentError where the World is not of this
+        document: its unit or up axis is another one.
+        """
+        self._same_unit(world)
+        resource = self._current()
+        known = Scenes(self, resource)
+        chosen = known.instantiated
+        if scenes is not None:
+            chosen = [known[scene] if isinstance(scene, str) else scene for scene in scenes]
+        numbers = [scene.number for scene in chosen]
+        places = [place for place, scene in enumerate(known) if scene.number in numbers]
+
+        def choose(version: Resource) -> Chosen:
+            found = Scenes(self, version)
+            taken = [found[place] for place in places] if places else found.instantiated
+            return _chosen(taken, [model for scene in taken for model in scene.models])
+
+        with schema_errors(resource):
+            tree = updated(resource, choose, world)
+        if tree is not None:
+            self._replace(tree)
+
+    def _same_unit(self, world: World) -> None:
         mine, given = (self.unit[1], self.up_axis), (world.unit_meter, world.up_axis)
         if mine != given:
             message = f"The World has unit and up axis {given}, the document {mine}."
             raise DocumentError(rules.UNIT.at(message=message, file=self.file))
-        self._replace(with_scene(tree, world, id, options))
-        return self.scenes[id]
 
     def write(self, target: Output) -> None:
         """Write the document, checked and atomically, to a .dae, a .zae or a binary file object.
@@ -241,3 +279,10 @@ class Document(Choosable):
         ids = [id or "without id" for id in scenes.id]
         found = f"physics scenes {', '.join(ids)}" if ids else "no physics scenes"
         return f"<Document {self.file or 'in memory'}: {found}; {len(self.report)} findings>"
+
+
+def _chosen(scenes: Iterable[Scene], models: Iterable[Model]) -> Chosen:
+    return Chosen(
+        [(scene.resource, scene.number) for scene in scenes],
+        [(model.scene.resource, model.number) for model in models],
+    )

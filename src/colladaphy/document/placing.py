@@ -97,7 +97,9 @@ def _is_fragile(foreign: etree._Element) -> bool:
 def separator(parent: etree._Element, mixed: bool) -> str | None:
     """The line break and indentation before a child; None where children are not indented."""
     text = parent.text
-    if mixed or not len(parent) or text is None or "\n" not in text or not text.isspace():
+    if mixed or next(iter(parent), None) is None:
+        return None
+    if text is None or "\n" not in text or not text.isspace():
         return None
     return text[text.rindex("\n") :]
 

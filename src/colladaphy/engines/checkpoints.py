@@ -6,10 +6,11 @@ import contextlib
 import os
 import re
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from colladaphy.engines.carrying import SceneDocument, save_scene
 from colladaphy.engines.digest import digest
 from colladaphy.engines.rules import (
     CHECKPOINT_BROKEN,
@@ -26,7 +27,7 @@ from colladaphy.findings import Finding, Severity
 if TYPE_CHECKING:
     from colladaphy.world import World
 
-__all__ = ["Checkpoints", "Found", "read_checkpoint"]
+__all__ = ["Checkpoints", "Found", "open_checkpoint", "read_checkpoint"]
 
 _PREFIX = "checkpoint-"
 _NAME = re.compile(re.escape(_PREFIX) + r"(\d+)\.(?:dae|zae)")
@@ -40,11 +41,18 @@ class Found:
 
     path: Path
     world: World
+    document: SceneDocument
+    """The document that holds it."""
     findings: tuple[Finding, ...] = field(default=())
 
 
 def read_checkpoint(path: str | os.PathLike[str]) -> World:
-    """The World of a checkpoint, proven to be what was written.
+    """The World of a checkpoint, proven to be what was written; see `open_checkpoint`."""
+    return open_checkpoint(path).world
+
+
+def open_checkpoint(path: str | os.PathLike[str]) -> Found:
+    """A checkpoint, proven to be what was written.
 
     EngineError (``engine-checkpoint-broken``) says why a file is not whole: it cannot be read, is
     not schema-valid, or its content does not fit its checksum. A scene without an engine's state is
@@ -54,7 +62,8 @@ def read_checkpoint(path: str | os.PathLike[str]) -> World:
 
     shown = os.fsdecode(path)
     try:
-        world: World = read(path).load()
+        document = read(path)
+        world: World = document.load()
     except ColladaError as error:
         reason = error.findings[0].message if error.findings else str(error)
         raise _broken(f"{Path(path).name} is not whole: {reason}", shown) from error
@@ -66,7 +75,7 @@ def read_checkpoint(path: str | os.PathLike[str]) -> World:
         raise _broken(f"{Path(path).name} has no checksum that can be understood.", shown)
     if recorded != digest(world):
         raise _broken(f"{Path(path).name} is not whole: it does not fit its checksum.", shown)
-    return world
+    return Found(Path(path), world, document)
 
 
 def _broken(message: str, file: str) -> EngineError:
@@ -108,17 +117,16 @@ class Checkpoints:
             raise refuse(CHECKPOINT_OTHER_RUN, message)
         self._make_folder()
 
-    def save(self, world: World) -> Path:
+    def save(self, world: World, document: SceneDocument | None = None) -> Path:
         """Write the checkpoint of `world` and remove those that are too many.
 
+        `document` is the one that the World came from: it is updated, and all else of it is kept.
         OutputError if it cannot be written; EngineError if what was written cannot be read back.
         The older ones are untouched then.
         """
-        from colladaphy.document import write
-
         self._make_folder()
         path = self.path(world.step_count)
-        write(world, path)
+        save_scene(world, path, document)
         older = [other for other in self.paths() if other != path and _step(other) <= _step(path)]
         surplus = older[: max(0, len(older) - self.keep + 1)]
         if surplus:
@@ -137,13 +145,13 @@ class Checkpoints:
         passed: list[Finding] = []
         for path in reversed(self.paths()):
             try:
-                world = read_checkpoint(path)
+                found = open_checkpoint(path)
             except EngineError as error:
                 passed += (
                     CHECKPOINT_BROKEN.at(message=f.message, file=f.file) for f in error.findings
                 )
                 continue
-            return Found(path, world, tuple(passed))
+            return replace(found, findings=tuple(passed))
         what = "No checkpoint is whole" if passed else "There is no checkpoint"
         message = f"{what} in {self.folder}."
         raise EngineError((CHECKPOINT_NONE.at(message=message, file=str(self.folder)), *passed))

@@ -9,7 +9,8 @@ from time import monotonic
 from typing import TYPE_CHECKING, Self
 from weakref import ref
 
-from colladaphy.engines.checkpoints import Checkpoints, read_checkpoint
+from colladaphy.engines.carrying import SceneDocument, save_scene
+from colladaphy.engines.checkpoints import Checkpoints, open_checkpoint
 from colladaphy.engines.diagnostics import ContactCount, Summary, summarise
 from colladaphy.engines.edits import Edits
 from colladaphy.engines.events import ContactEvent, ContactEvents
@@ -51,6 +52,9 @@ class Simulation:
     bodies begin or cease to touch. `on_finding` gets what is in `report` up to then before the
     engine is set up, which can take long (``engine-setup``).
 
+    `document` is the one that the World came from: checkpoints are written into it, by
+    `Document.update`, so that they hold all else of it.
+
     Edits of the World between two runs are taken up by the next one. During a run `forces` and
     observers may change motion and forces, which the running engine takes up; anything else is
     refused (``engine-edit``).
@@ -66,8 +70,10 @@ class Simulation:
         forces: Callable[[World, float], object] | None = None,
         on_contact: Callable[[ContactEvent], object] | None = None,
         on_finding: Callable[[Finding], object] | None = None,
+        document: SceneDocument | None = None,
     ) -> None:
         self.world = world
+        self.document = document
         self._forces = forces
         self._events = ContactEvents(on_contact) if on_contact else None
         self.seed = seed
@@ -110,24 +116,24 @@ class Simulation:
         forces: Callable[[World, float], object] | None = None,
         on_contact: Callable[[ContactEvent], object] | None = None,
         on_finding: Callable[[Finding], object] | None = None,
+        document: SceneDocument | None = None,
     ) -> Self:
         """Go on from a checkpoint, or from the newest one that is whole in a folder.
 
         "auto" is the engine that wrote it, with its options, and so is its name: the same engine
         in the same version goes on to the last bit. Another one goes on from the World, with a
         finding. EngineError if there is no checkpoint that is whole (those that are not are in the
-        report), or if the engine that wrote it is not there and no other one is named.
+        report), or if the engine that wrote it is not there and no other one is named. Without a
+        `document` the checkpoint's own is taken.
         """
-        if Path(source).is_dir():
-            found = Checkpoints(source).newest()
-            world, passed = found.world, found.findings
-        else:
-            world, passed = read_checkpoint(source), ()
+        found = Checkpoints(source).newest() if Path(source).is_dir() else open_checkpoint(source)
+        world, passed = found.world, found.findings
         state = world.engine_state
         if state is not None and engine in ("auto", state.engine):
             engine = _maker(state)
         run = cls(
-            world, engine, dt, seed, forces=forces, on_contact=on_contact, on_finding=on_finding
+            world, engine, dt, seed, forces=forces, on_contact=on_contact, on_finding=on_finding,
+            document=found.document if document is None else document,
         )
         run.report.findings[:0] = passed
         return run
@@ -204,14 +210,12 @@ class Simulation:
         if isinstance(target, Checkpoints):
             return self._save(target)
         self._rebuild()
-        from colladaphy.document import write
-
-        write(self.world, target)
+        save_scene(self.world, target, self.document)
         return Path(target)
 
     def _save(self, checkpoints: Checkpoints) -> Path:
         self._rebuild()
-        return checkpoints.save(self.world)
+        return checkpoints.save(self.world, self.document)
 
     def _rebuild(self) -> None:
         """Make the running engine the one that a resumed run begins with."""

@@ -22,7 +22,7 @@ from colladaphy.links.resource import Resource
 from colladaphy.links.steps import Transforms, matrix_of, own_transforms, product, rigid_parts
 from colladaphy_schema.scene_columns import InstanceNodeTypeRows, NodeTypeRows
 
-__all__ = ["OwnTransforms", "Placement"]
+__all__ = ["OwnTransforms", "Placement", "Sums"]
 
 Array = NDArray[Any]
 
@@ -36,10 +36,25 @@ class OwnTransforms:
     """(n,) whether the transform is a matrix."""
     matrices: Array
     """(n, 4, 4) where it is one, in the order of the rows."""
-    mixed: Array
-    """(n,) whether it is more than a translation and then a rotation."""
+    steps: Array
+    """(n,) of how many steps it is; a translation and then a rotation are one."""
     sizes: Array
-    """(n,) the largest numbers of its translations."""
+    """(n,) how large its translations are together."""
+
+
+@dataclass(slots=True)
+class Sums:
+    """How positions and orientations were added up, n rows."""
+
+    sizes: Array
+    """(n,) how large the positions are that others were added to."""
+    steps: Array
+    """(n,) how many transforms were composed; 0 for what is stated directly."""
+
+    def take(self, rows: Array) -> Sums:
+        """Some of the rows, in that order; nothing for -1."""
+        sizes, steps = np.append(self.sizes, 0.0), np.append(self.steps, 0)
+        return Sums(sizes[rows], steps[rows])
 
 
 class Placement:
@@ -129,24 +144,22 @@ class Placement:
             shared[rows] |= shared[above[rows]]
         return shared[:-1]
 
-    def reach(self) -> tuple[Array, Array]:
-        """Whose world position (n,) is a sum, and the sizes (n,) of the positions that are in it.
-
-        Those of the frames around a node, and those of its own steps where it has several.
-        """
+    def reach(self) -> Sums:
+        """What the world poses of the nodes are made of."""
         own, above = self.own(), self.above()
-        mixed = own.mixed | (above >= 0)
-        sizes = np.where(own.mixed, own.sizes, 0.0)
+        mixed = own.steps > 1
+        sums = Sums(np.where(mixed, own.sizes, 0.0), np.where(mixed, own.steps, 0))
         if not np.any(above >= 0):
-            return mixed, sizes
+            return sums
         poses, affine, matrices = self.frames()
         places = np.abs(poses.positions).max(axis=1)
         for row in np.flatnonzero(affine).tolist():
             places[row] = np.abs(matrices[row][:3, 3]).max()
         for rows in self.levels()[1:]:
             outer = above[rows]
-            sizes[rows] = np.maximum(sizes[rows], np.maximum(sizes[outer], places[outer]))
-        return mixed, sizes
+            sums.sizes[rows] += sums.sizes[outer] + places[outer]
+            sums.steps[rows] += sums.steps[outer] + own.steps[outer] + 1
+        return sums
 
     # --- the nodes above
 
@@ -314,18 +327,17 @@ def _own(nodes: NodeTypeRows, home: int, start: int) -> OwnTransforms:
     rows = sorted(transforms.matrices)
     affine[rows] = True
     matrices = np.array([transforms.matrices[row] for row in rows]).reshape(-1, 4, 4)
-    mixed, sizes = affine.copy(), np.zeros(len(nodes))
+    steps, sizes = np.zeros(len(nodes), np.int64), np.zeros(len(nodes))
+    for name in ("translate", "rotate", "matrix", "scale", "skew", "lookat"):
+        steps += np.bincount(getattr(nodes, name).owner, minlength=len(nodes))
+    translate, rotate = nodes.translate, nodes.rotate
     if len(rows):
         sizes[rows] = np.abs(matrices[:, :3, 3]).max(axis=1)
-    translate, rotate = nodes.translate, nodes.rotate
-    moves = np.bincount(translate.owner, minlength=len(nodes))
-    turns = np.bincount(rotate.owner, minlength=len(nodes))
-    mixed |= (moves > 1) | (turns > 1)
+        steps[rows] += 1
     if len(translate):
-        np.maximum.at(sizes, translate.owner, np.abs(translate.value).max(axis=1))
-        both = np.flatnonzero((moves == 1) & (turns == 1))
-        first, second = np.zeros(len(nodes), np.int64), np.zeros(len(nodes), np.int64)
+        np.add.at(sizes, translate.owner, np.abs(translate.value).max(axis=1))
+        first, second = (np.full(len(nodes), -1, np.int64) for _ in range(2))
         assert translate.ordinals is not None and rotate.ordinals is not None
         first[translate.owner], second[rotate.owner] = translate.ordinals, rotate.ordinals
-        mixed[both] |= first[both] > second[both]
-    return OwnTransforms(transforms.poses, affine, matrices, mixed, sizes)
+        steps[(steps == 2) & (first >= 0) & (first < second)] = 1
+    return OwnTransforms(transforms.poses, affine, matrices, steps, sizes)

@@ -13,6 +13,7 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
+from colladaphy.links.nodes import Sums
 from colladaphy.links.poses import Poses, rotate_vectors, unit_quaternions
 from colladaphy.mapper.loading.deciding import Deciding, Prefer
 from colladaphy.mapper.loading.found import FoundBodies
@@ -338,7 +339,8 @@ class _Loading:
     def _poses(self, poses: Poses, origin: Poses, motions: Motions, rows: Array) -> None:
         """Exact positions and orientations of the profile, unless the nodes were moved.
 
-        A position that is a sum is compared as a whole, to the size of what was added up.
+        A position that is a sum is compared as a whole, to the size of what was added up, and a
+        product of turns with a tolerance for each.
         """
         deciding = self._deciding
         mine = rows[motions.has_position[rows]]
@@ -347,12 +349,10 @@ class _Loading:
             same = deciding.sameness.each(mine, stated, exact)
             left = np.flatnonzero(~same)
             if len(left):
-                is_sum, sizes = self._found.reach(self._tables)
-                is_sum |= ~origin.is_identity()
-                sizes = np.maximum(sizes, np.abs(origin.positions).max(axis=1))
-                left = left[is_sum[mine[left]]]
+                sums = self._sums(origin)
+                left = left[sums.steps[mine[left]] > 0]
                 same[left] = deciding.sameness.whole(
-                    mine[left], stated[left], exact[left], sizes[mine[left]]
+                    mine[left], stated[left], exact[left], sums.sizes[mine[left]]
                 )
             taken = mine[deciding.take("position", mine, stated, exact, same, instance=True)]
             poses.positions[taken] = motions.position[taken]
@@ -361,9 +361,20 @@ class _Loading:
         if len(mine):
             stated, exact = poses.orientations[mine], motions.orientation[mine]
             same = deciding.sameness.turn(mine, stated, exact)
+            left = np.flatnonzero(~same)
+            if len(left):
+                steps = self._sums(origin).steps[mine[left]]
+                same[left] = deciding.sameness.turn(mine[left], stated[left], exact[left], steps)
             taken = mine[deciding.take("orientation", mine, stated, exact, same, instance=True)]
             poses.orientations[taken] = motions.orientation[taken]
             poses.turned[taken] = True
+
+    def _sums(self, origin: Poses) -> Sums:
+        """What the poses of bodies at `origin` in their rigid_bodies are made of."""
+        sums = self._found.reach(self._tables)
+        sums.sizes += np.abs(origin.positions).max(axis=1)
+        sums.steps += ~origin.is_identity()
+        return sums
 
     def _planes(self, loaded: LoadedBodies, poses: Poses, motions: Motions, rows: Array) -> None:
         """A plane is where its equation says; anchor and orientation are the pe profile's."""

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from colladaphy.errors import DocumentError
 from colladaphy.links import rules as link_rules
+from colladaphy.links.nodes import Sums
 from colladaphy.links.pool import Table
 from colladaphy.links.poses import Poses
 from colladaphy.mapper.loading.instances import Expansion
@@ -49,21 +50,23 @@ class FoundBodies:
         return FoundBodies(tables, self._expansion, self.models[rows], self.rows[rows],
                            self.bodies[rows], self.nodes[rows], self.poses.take(rows))  # fmt: skip
 
-    def reach(self, tables: Tables) -> tuple[Array, Array]:
-        """Whose position is a sum of others (n,), and the sizes (n,) of the largest of these."""
+    def reach(self, tables: Tables) -> Sums:
+        """What their poses are made of: nodes, and the parents of instances of models."""
         expansion = self._expansion
-        mixed, sizes = (np.append(column, 0) for column in tables.placement.reach())
-        chains = expansion.chains[self.models]
-        is_sum, largest = mixed[self.nodes].astype(np.bool_), sizes[self.nodes]
-        parents = expansion.parent_nodes
+        nodes = tables.placement.reach()
+        sums = nodes.take(self.nodes)
+        chains, parents = expansion.chains[self.models], expansion.parent_nodes
         if len(parents):
             outer, _ = tables.placement.poses(parents)
-            around = np.maximum(sizes[parents], np.abs(outer.positions).max(axis=1))
+            around = nodes.take(parents)
+            around.sizes += np.abs(outer.positions).max(axis=1)
+            around.steps += 1
             while np.any(chains >= 0):
-                is_sum |= chains >= 0
-                largest = np.maximum(largest, np.where(chains >= 0, around[chains], 0.0))
+                here = around.take(chains)
+                sums.sizes += here.sizes
+                sums.steps += here.steps
                 chains = np.where(chains >= 0, expansion.parent_chains[chains], -1)
-        return is_sum, largest
+        return sums
 
 
 def find_bodies(tables: Tables, expansion: Expansion) -> FoundBodies:

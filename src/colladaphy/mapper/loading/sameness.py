@@ -97,15 +97,23 @@ class Sameness:
         return self._decided(rows, lambda tolerance, mine: _same(
             one[mine], other[mine], tolerance, scale[mine]).all(axis=1))  # fmt: skip
 
-    def turn(self, rows: Array, one: Array, other: Array) -> Array:
-        """Which quaternions (n, 4) turn the same way."""
+    def turn(
+        self, rows: Array, one: Array, other: Array, steps: Array | int = 0
+    ) -> Array:
+        """Which quaternions (n, 4) turn the same way.
+
+        `steps` (n,) tells of how many turns they were composed, each of which was rounded.
+        """
         first, second = unit_quaternions(one), unit_quaternions(other)
+        several = np.broadcast_to(steps, (len(rows),))
         with np.errstate(all="ignore"):
             apart = np.minimum(
                 np.sqrt(np.sum((first - second) ** 2, axis=1)),
                 np.sqrt(np.sum((first + second) ** 2, axis=1)),
             )
-        return self._decided(rows, lambda tolerance, mine: apart[mine] <= 8.0 * tolerance)
+        return self._decided(
+            rows, lambda tolerance, mine: apart[mine] <= (8.0 + several[mine]) * tolerance
+        )
 
 
 def _same(one: Array, other: Array, tolerance: Array, scale: Array) -> Array:

@@ -1,0 +1,33 @@
+"""What can be noticed while a World is written back into its document."""
+
+from __future__ import annotations
+
+from colladaphy.findings import Rule, Severity
+
+__all__ = ["RULES"]
+
+_WARNING = Severity.WARNING
+_INFO = Severity.INFO
+
+NODE = Rule(
+    "store-node-added",
+    _INFO,
+    "A body got a node of its own, as the one that it is bound to cannot be moved for it alone.",
+    "Bind each body to a node that no other body has, and that is instanced once.",
+    "COLLADA 1.5 §instance_rigid_body",
+)
+COPIED = Rule(
+    "store-copied",
+    _INFO,
+    "What describes a body describes others too, or stands in another document; as the body is "
+    "different now, it is described by a copy.",
+    None,
+    "thesis 3.3",
+)
+INEXACT = Rule(
+    "store-inexact",
+    _WARNING,
+    "The document does not read back as exactly the World that was written into it.",
+    "Write the World as a document of its own: colladaphy.write(world, ...).",
+)
+RULES = (NODE, COPIED, INEXACT)
