@@ -15,8 +15,9 @@ from colladaphy.world import World, compare
 
 
 def written(document: colladaphy.Document) -> bytes:
+    """What is written of a document, whatever it means."""
     stream = io.BytesIO()
-    document.write(stream)
+    colladaphy.Document(document.tree, tolerant=True).write(stream)
     return stream.getvalue()
 
 

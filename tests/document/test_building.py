@@ -117,6 +117,23 @@ def test_what_the_schema_has_not_is_refused_and_nothing_is_written() -> None:
     assert target.getvalue() == b""
 
 
+@pytest.mark.parametrize("value", ["#nothing", "#model"])
+def test_what_validate_calls_invalid_is_refused_and_nothing_is_written(value: str) -> None:
+    document = colladaphy.Document(_built())
+    document.root.scene.instance_physics_scene[0].url = value
+    target = io.BytesIO()
+    with pytest.raises(colladaphy.DocumentError, match=value):
+        document.write(target)
+    assert target.getvalue() == b""
+
+
+def test_negative_mass_is_refused() -> None:
+    document = colladaphy.Document(_built())
+    document.find("#model/ball").technique_common.mass.value = -1.0
+    with pytest.raises(colladaphy.DocumentError, match="mass"):
+        document.write(io.BytesIO())
+
+
 @pytest.mark.parametrize("content", [None, 3, "<COLLADA/>", b"<COLLADA/>", SphereType(radius=1)])
 def test_a_document_is_made_of_nothing_else(content: object) -> None:
     with pytest.raises(colladaphy.DocumentError, match=type(content).__name__):

@@ -270,7 +270,8 @@ class Document(Choosable):
     def write(self, target: Output) -> None:
         """Write the document, checked and atomically, to a .dae, a .zae or a binary file object.
 
-        Raises SchemaError where it is not valid, and OutputError.
+        Raises SchemaError where it is not valid, DocumentError where `validate` finds that what it
+        means is wrong (unless it was read with repair), and OutputError.
         """
         write_document(self._current(), target, self.archive, self.member)
 

@@ -9,10 +9,12 @@ from typing import BinaryIO
 from lxml import etree
 
 from colladaphy.document.values import bad_numbers
-from colladaphy.errors import SchemaError
+from colladaphy.errors import DocumentError, SchemaError
+from colladaphy.findings import Severity, unchanging
 from colladaphy.gate import gate
 from colladaphy.links.resource import Resource
 from colladaphy.mapper import WriteOptions, store
+from colladaphy.meaning import check
 from colladaphy.source import Archive, packed_for, save
 from colladaphy.world import World
 
@@ -36,8 +38,18 @@ def document_bytes(resource: Resource) -> bytes:
 def write_document(
     resource: Resource, target: Output, archive: Archive | None, member: str | None
 ) -> None:
-    """Write a document; one that came from an archive keeps the other files of it."""
-    _save(packed_for(target, document_bytes(resource), archive, member), target)
+    """Write a document; one that came from an archive keeps the other files of it.
+
+    DocumentError where its meaning is wrong; of one read with repair, what could not be mended is
+    written all the same.
+    """
+    data = document_bytes(resource)
+    if not resource.tolerant:
+        with unchanging():
+            wrong = [each for each in check(resource) if each.severity is Severity.ERROR]
+        if wrong:
+            raise DocumentError(wrong)
+    _save(packed_for(target, data, archive, member), target)
 
 
 def write_world(world: World, target: Output, options: WriteOptions | None) -> None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 from colladaphy.links.poses import DEGREE
+from colladaphy.links.sums import exact_sum
 
 __all__ = ["lookat_matrix", "skew_matrix"]
 
@@ -13,7 +14,7 @@ Matrix = tuple[tuple[float, float, float, float], ...]
 
 
 def _unit(vector: Sequence[float]) -> tuple[float, float, float]:
-    length = math.sqrt(math.fsum(part * part for part in vector)) or 1.0
+    length = math.sqrt(exact_sum(part * part for part in vector)) or 1.0
     return (vector[0] / length, vector[1] / length, vector[2] / length)
 
 

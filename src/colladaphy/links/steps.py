@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from colladaphy.links.affine import lookat_matrix, skew_matrix
 from colladaphy.links.poses import Poses, quaternions_of_turns
+from colladaphy.links.sums import exact_sum
 
 __all__ = [
     "Steps",
@@ -198,7 +199,7 @@ def product(outer: Array, inner: Array) -> Array:
     """The product of two 4x4 matrices, each sum rounded once."""
     columns = inner.T.tolist()
     return np.array([
-        [math.fsum(a * b for a, b in zip(row, column, strict=True)) for column in columns]
+        [exact_sum(a * b for a, b in zip(row, column, strict=True)) for column in columns]
         for row in outer.tolist()
     ])  # fmt: skip
 
@@ -226,7 +227,7 @@ def rigid_parts(matrices: Array) -> tuple[Poses, Array]:
 
 def _units(vectors: Array) -> Array:
     squares = (vectors * vectors).tolist()
-    length = np.array([math.sqrt(math.fsum(row)) for row in squares])
+    length = np.array([math.sqrt(exact_sum(row)) for row in squares])
     good = (length > 0.0) & (length < np.inf)
     made = vectors / np.where(good, length, 1.0)[:, None]
     made[~good] = (1.0, 0.0, 0.0)

@@ -95,9 +95,10 @@ def normal(value: ArrayLike) -> Floats:
 
 def _unit(numbers: Floats, zero: Callable[[], Exception]) -> Floats:
     items = numbers.tolist()
-    if abs(math.fsum([item * item for item in items]) - 1.0) <= _UNIT_TOLERANCE:
-        return numbers
     largest = max(map(abs, items))
+    # The squares of larger ones may have no sum.
+    if largest < 2.0 and abs(math.fsum([item * item for item in items]) - 1.0) <= _UNIT_TOLERANCE:
+        return numbers
     if largest == 0.0:
         raise zero()
     numbers = np.ldexp(numbers, -math.frexp(largest)[1])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from colladaphy.links.pool import concatenated, expanded
 from colladaphy.links.poses import Poses
+from colladaphy.links.sums import exact_sum
 from colladaphy.mapper import rules
 from colladaphy.mapper.loading.found import FoundBodies
 from colladaphy.mapper.loading.materials import STANDARD_DENSITY, UNSPECIFIED, MaterialTable
@@ -287,9 +287,9 @@ def complete(
         mass = float(values.mass[body])
         listed = np.nan_to_num(members.masses[start:stop]).tolist()
         volumes = members.volumes[start:stop].tolist()
-        total = math.fsum(listed)
+        total = exact_sum(listed)
         weights = listed if total > 0.0 else volumes
-        whole = total if total > 0.0 else math.fsum(volumes)
+        whole = total if total > 0.0 else exact_sum(volumes)
         if whole > 0.0 and total != mass:
             for row, weight in zip(range(start, stop), weights, strict=True):
                 if members.kinds[row] != Kind.PLANE:
