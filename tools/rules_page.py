@@ -25,14 +25,15 @@ def page() -> str:
     """The page's text, one table a stage."""
     parts = [HEAD]
     for stage, rules in groupby(all_rules(), key=lambda rule: rule.stage):
-        parts.append(f"\n## {stage}\n\n| code | severity | what it means | what to do | source |")
-        parts.append("|---|---|---|---|---|")
+        parts.append(f"\n## {stage}\n\n| code | severity | what it means | why | what to do | source |")
+        parts.append("|---|---|---|---|---|---|")
         parts.extend(map(row, rules))
     return "\n".join(parts) + "\n"
 
 
 def row(rule: Rule) -> str:
-    cells = (f"`{rule.code}`", str(rule.severity), rule.summary, rule.hint, rule.section)
+    cells = (f"`{rule.code}`", str(rule.severity), rule.summary, rule.why, rule.hint,
+             rule.section)  # fmt: skip
     return "| " + " | ".join((cell or "").replace("|", "\\|") for cell in cells) + " |"
 
 

@@ -1,0 +1,90 @@
+"""What validation calls valid, loading takes without an error.
+
+Over documents of the whole schema, Worlds that were stored and edited, documents as producers
+write them, and all the documents of the rules.
+"""
+
+from __future__ import annotations
+
+import io
+import random
+import re
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from tests.meaning.test_cases import FAULTS, NEAR, Case
+from tests.strategies.worlds import worlds
+
+import colladaphy
+from colladaphy import World
+from colladaphy.testing import documents
+from colladaphy.validation.mending import mend, serialise
+
+some = settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck))
+
+
+def check(data: bytes | Path) -> None:
+    """A document that is called valid must load, and to call one so must not raise."""
+    report = colladaphy.validate(data)
+    # A reference out of the document's folder is not wrong, but is not followed either.
+    if report.valid and not any(finding.code == "io-reference-refused" for finding in report):
+        document = colladaphy.read(data)
+        document.load()
+
+
+@some
+@given(documents())
+def test_documents_of_the_whole_schema(document: bytes) -> None:
+    check(document)
+
+
+@some
+@given(documents(areas=["physics"]))
+def test_documents_of_physics(document: bytes) -> None:
+    check(document)
+
+
+@some
+@given(worlds(wild=True))
+def test_stored_worlds(world: World) -> None:
+    target = io.BytesIO()
+    colladaphy.write(world, target)
+    check(target.getvalue())
+
+
+_NUMBER = re.compile(rb"(?<=[> ])-?[0-9][0-9.e+-]*(?=[< ])")
+_REFERENCE = re.compile(rb'(?<=")#?[A-Za-z]+[0-9]+(?=")')
+_ODD = (b"0", b"-1", b"NaN", b"INF", b"-INF", b"1e999", b"1e-320", b"1e308", b"")
+
+
+@some
+@given(worlds(wild=False), st.integers(0, 2**32), st.integers(1, 3))
+def test_edited_worlds(world: World, seed: int, times: int) -> None:
+    """Numbers and references are replaced by others, and by such as have no meaning."""
+    target = io.BytesIO()
+    colladaphy.write(world, target)
+    data, chance = target.getvalue(), random.Random(seed)
+    for _ in range(times):
+        pattern = chance.choice((_NUMBER, _NUMBER, _REFERENCE))
+        found = list(pattern.finditer(data))
+        if not found:
+            continue
+        place = chance.choice(found)
+        others = [*_ODD] if pattern is _NUMBER else [m.group() for m in found] + [b"#none", b""]
+        data = data[: place.start()] + chance.choice(others) + data[place.end() :]
+    check(data)
+
+
+@pytest.mark.parametrize("case", FAULTS + NEAR)
+def test_documents_of_the_rules(case: Case, tmp_path: Path) -> None:
+    case.report(tmp_path)
+    check(tmp_path / "case.dae")
+
+
+def test_real_files_after_they_are_mended(corpus_dir: Path) -> None:
+    for path in sorted(corpus_dir.glob("*.dae")):
+        if path.name == "colladatools-simple-arm-hostile.dae":
+            continue  # no XML, be it mended
+        check(serialise(mend(path).tree))
