@@ -1,0 +1,164 @@
+"""The bodies, and the places of the world, that attachments lead to."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.errors import DocumentError
+from colladaphy.links.addresses import split_reference
+from colladaphy.links.poses import Poses
+from colladaphy.mapper import rules
+from colladaphy.mapper.loading.bodies import LoadedBodies
+from colladaphy.mapper.loading.constraints import Constraints
+from colladaphy.mapper.loading.instances import Expansion
+from colladaphy.mapper.loading.tables import Tables
+
+__all__ = ["Ends"]
+
+Array = NDArray[Any]
+
+
+class Ends:
+    """Finds the bodies that attachments mean."""
+
+    def __init__(
+        self, tables: Tables, expansion: Expansion, loaded: LoadedBodies, created: Array,
+        read: Constraints,
+    ) -> None:  # fmt: skip
+        self._tables = tables
+        self._expansion = expansion
+        self._created = created
+        self._read = read
+        found = loaded.found
+        self._by_model: dict[tuple[int, int], list[int]] = {}
+        self._by_body: dict[int, list[int]] = {}
+        for body, (model, row) in enumerate(
+            zip(found.models.tolist(), found.bodies.tolist(), strict=True)
+        ):
+            self._by_model.setdefault((model, row), []).append(body)
+            self._by_body.setdefault(row, []).append(body)
+        bodies = tables.bodies
+        self._sids: dict[tuple[int, str], int] = {}
+        for row, (key, sid) in enumerate(
+            zip(bodies.parent_keys.tolist(), bodies.texts("sid"), strict=True)
+        ):
+            self._sids.setdefault((key, sid), row)
+        self._model_keys = tables.models.keys(expansion.models).tolist()
+        self._model_ids = [tables.models.texts("id")[row] for row in expansion.models.tolist()]
+        self._children: dict[int, list[int]] = {}
+        for inner, around in enumerate(expansion.around.tolist()):
+            self._children.setdefault(around, []).append(inner)
+        self._instance_sids = tables.model_instances.texts("sid")
+
+    def attached(self, constraints: Array, models: Array) -> tuple[Array, Array, Poses]:
+        """The numbers of those whose ends are all there, and their bodies (n, 2), -1 for the world.
+
+        Of ends at nodes of the world the poses (2 n) of these are given.
+        """
+        kept: list[int] = []
+        bodies: list[tuple[int, int]] = []
+        nodes: list[tuple[int, int]] = []
+        references = self._read.references
+        pairs = zip(constraints.tolist(), models.tolist(), strict=True)
+        for number, (row, model) in enumerate(pairs):
+            ends: list[int] = []
+            stands: list[int] = []
+            try:
+                for side in (0, 1):
+                    reference = references[2 * row + side]
+                    body, node = -1, -1
+                    if reference:
+                        body, node = self._end(row, side, model, reference)
+                    ends.append(body)
+                    stands.append(node)
+            except DocumentError as error:
+                self._tables.resource.report.extend(error.findings)
+                continue
+            if -2 in ends:
+                reference = references[2 * row + ends.index(-2)]
+                home, element = self._place(row)
+                message = f"The body {reference!r} was not loaded; the constraint is skipped."
+                self._tables.resource.note(rules.CONSTRAINT_SKIPPED, element, message, home=home)
+                continue
+            kept.append(number)
+            bodies.append((ends[0], ends[1]))
+            nodes.append((stands[0], stands[1]))
+        flat = np.array(nodes, np.int64).reshape(-1)
+        places = Poses.none(len(flat))
+        there = np.flatnonzero(flat >= 0)
+        if len(there):
+            places.put(there, self._tables.placement.poses(flat[there])[0])
+        return np.array(kept, np.int64), np.array(bodies, np.int64).reshape(-1, 2), places
+
+    def _place(self, row: int) -> tuple[Any, int]:
+        table = self._tables.constraints
+        home = self._tables.pool.resources[int(table.homes(np.array([row]))[0])]
+        return home, int(table.ordinals[row])
+
+    def _end(self, row: int, side: int, model: int, reference: str) -> tuple[int, int]:
+        """The body that an attachment means, -2 if it was not loaded; or -1 and a node."""
+        # As nearly all are written: the model, or nothing, and the sid of the body.
+        outer, slash, sid = reference.rpartition("/")
+        if outer == self._model_ids[model] or not slash:
+            quick = self._sids.get((self._model_keys[model], sid))
+            if quick is not None:
+                return self._only(self._by_model.get((model, quick), ()), row, side), -1
+        file, head, sids = split_reference(reference)
+        if not file:
+            path = sids if head in (".", self._model_ids[model]) else [head, *sids]
+            where: int | None = model
+            for step in path[:-1]:
+                where = None if where is None else self._child(where, step)
+            if where is not None and path:
+                body = self._sids.get((self._model_keys[where], path[-1]))
+                if body is not None:
+                    return self._only(self._by_model.get((where, body), ()), row, side), -1
+        home, _ = self._place(row)
+        origin = int(self._read.origins[row, side])
+        target, element = home.follow(reference, origin, ("rigid_body", "node"))
+        number = self._tables.pool.number(target)
+        if target.columns.local_name(element) == "node":
+            node = self._tables.placement.nodes.row_of(number, element)
+            _, circles = self._tables.placement.poses(np.array([node]))
+            if circles:
+                raise circles[node]
+            return -1, node
+        body = self._tables.bodies.row_of(number, element)
+        inside = self._walk(model)
+        within = [found for inner in inside for found in self._by_model.get((inner, body), ())]
+        return self._only(within or self._by_body.get(body, ()), row, side), -1
+
+    def _child(self, model: int, name: str) -> int | None:
+        """The instance within one of a sid, or else of a model's id."""
+        children = self._children.get(model, ())
+        rows = self._expansion.rows
+        for child in children:
+            if self._instance_sids[int(rows[child])] == name:
+                return child
+        for child in children:
+            if self._model_ids[child] == name:
+                return child
+        return None
+
+    def _walk(self, model: int) -> list[int]:
+        found = [model]
+        for inner in found:
+            found += self._children.get(inner, ())
+        return found
+
+    def _only(self, bodies: Any, row: int, side: int) -> int:
+        if len(bodies) > 1:
+            home, _ = self._place(row)
+            element = home.element(int(self._read.origins[row, side]))
+            reference = self._read.references[2 * row + side]
+            message = (
+                f"The body {reference!r} is instanced {len(bodies)} times in one instance of its "
+                "model, so a constraint cannot tell which one is meant."
+            )
+            raise DocumentError(
+                rules.BODY_TWICE.at(element, message, file=self._tables.resource.file)
+            )
+        return bodies[0] if bodies and self._created[bodies[0]] else -2
