@@ -22,6 +22,8 @@ def command(code: str) -> None:
         raise click.BadParameter(f"There is no code {code!r}.{hint}", param_hint="CODE")
     say(f"{rule.code} ({rule.severity}, stage {rule.stage})")
     say(f"  {rule.summary}")
+    if rule.why:
+        say(f"  Why it matters: {rule.why}")
     if rule.hint:
         say(f"  What to do: {rule.hint}")
     if rule.section:

@@ -4,45 +4,52 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib import import_module
+from typing import Final
 
 import numpy as np
 
 from colladaphy.findings import Finding
+from colladaphy.links.names import c
 from colladaphy.links.resource import Resource
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit, findings_of
 
 __all__ = ["SUBJECTS", "check"]
 
-SUBJECTS = (
-    "asset",
-    "links",
-    "models",
-    "circles",
-    "addresses",
-    "images",
-    "materials",
-    "arrays",
-    "inputs",
-    "primitives",
-    "values",
-    "surfaces",
-    "scene",
-    "controllers",
-    "animation",
-    "bodies",
-    "shapes",
-    "surface_materials",
-    "motions",
-    "nodes",
-    "joints",
-    "frames",
-    "worlds",
-    "kinematics",
-    "profile",
-    "staleness",
-)
-"""The modules of rules; each has the functions that report them in `CHECKS`."""
+_PRIMITIVES = ("mesh", "convex_mesh")
+_BODIES = ("rigid_body",)
+SUBJECTS: Final[dict[str, tuple[str, ...]]] = {
+    "asset": (),
+    "links": (),
+    "models": ("instance_physics_model", "physics_model"),
+    "circles": (),
+    "addresses": ("kinematics_model", "articulated_system", "instance_kinematics_scene"),
+    "images": ("init_from",),
+    "materials": ("bind_material", "texture"),
+    "arrays": ("source",),
+    "inputs": ("input", *_PRIMITIVES, "sampler", "skin", "morph"),
+    "primitives": _PRIMITIVES,
+    "values": ("float_array",),
+    "surfaces": _PRIMITIVES,
+    "scene": ("node", "camera", "light", "skin", "rigid_body", "link", "rigid_constraint"),
+    "controllers": ("controller",),
+    "animation": ("animation", "animation_clip"),
+    "bodies": _BODIES,
+    "shapes": _BODIES,
+    "surface_materials": ("physics_material",),
+    "motions": ("instance_rigid_body",),
+    "nodes": ("instance_rigid_body",),
+    "joints": ("rigid_constraint",),
+    "frames": ("instance_rigid_constraint",),
+    "worlds": ("physics_scene",),
+    "kinematics": ("revolute", "prismatic", "axis_info"),
+    "profile": ("technique",),
+    "staleness": ("technique",),
+}
+"""The modules of rules, each with the elements that it is about (none: it is always run).
+
+The functions that report the rules of a module are its `CHECKS`.
+"""
 
 
 def check(resource: Resource, exists: Callable[[str], str | None] | None = None) -> list[Finding]:
@@ -53,7 +60,10 @@ def check(resource: Resource, exists: Callable[[str], str | None] | None = None)
     context = Context(resource, exists)
     hits: list[Hit | Finding] = []
     with np.errstate(all="ignore"):
-        for subject in SUBJECTS:
+        for subject, names in SUBJECTS.items():
+            # What there is nothing of need not be imported.
+            if names and not any(context.columns.codes_of(c(name)) for name in names):
+                continue
             module = import_module(f"colladaphy.meaning.{subject}")
             for function in module.CHECKS:
                 hits.extend(function(context))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from colladaphy.columns.reading import Document
 from colladaphy.findings import Rule
-from colladaphy.links.names import COLLADA, c
+from colladaphy.links.names import c
 from colladaphy.links.nodes import Placement
 from colladaphy.links.pool import Pool
 from colladaphy.links.resource import Resource
@@ -217,16 +217,17 @@ class Context:
 
     def label(self, element: int) -> str:
         """What an element is called in a message."""
-        for key in ("id", "sid", "name"):
-            text = self.columns.attribute_of(element, key)
-            if text:
-                return f"<{self.name(element)}> {text!r}"
-        return f"<{self.name(element)}>"
+        text = self._labels.get(element)
+        return f"<{self.name(element)}> {text!r}" if text else f"<{self.name(element)}>"
 
     @cached_property
-    def is_collada(self) -> bool:
-        """Whether the root is of COLLADA 1.5."""
-        return bool(self.columns.codes_of(f"{{{COLLADA}}}COLLADA"))
+    def _labels(self) -> dict[int, str]:
+        """Ids, or else sids, or else names, by element."""
+        found: dict[int, str] = {}
+        for key in ("name", "sid", "id"):
+            elements, texts = self.columns.with_attribute(key)
+            found.update(zip(elements.tolist(), texts, strict=True))
+        return found
 
     # --- references
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from colladaphy.findings import Finding, Rule, Severity
 from colladaphy.links.resource import Resource
+from colladaphy_schema.rows import Column, Rows
 
 __all__ = ["Hit", "findings_of", "listed"]
 
@@ -48,6 +49,7 @@ def findings_of(resource: Resource, hits: Sequence[Hit | Finding]) -> list[Findi
     paths = dict(zip(wanted.tolist(), _paths(resource, wanted), strict=True))
     columns = resource.columns
     places = dict(zip(wanted.tolist(), columns.places.places(wanted), strict=True))
+    sids = dict(zip(wanted.tolist(), _attribute(resource, wanted, "sid"), strict=True))
     made = others
     for hit in kept:
         place = places[hit.element]
@@ -64,11 +66,19 @@ def findings_of(resource: Resource, hits: Sequence[Hit | Finding]) -> list[Findi
                 hint=hit.hint or hit.rule.hint,
                 why=hit.rule.why,
                 attribute=hit.attribute,
-                sid=columns.attribute_of(hit.element, "sid"),
+                sid=sids[hit.element],
                 related=tuple((paths[other], places[other].line) for other in hit.related),
             )
         )
     return made
+
+
+def _attribute(resource: Resource, elements: Array, name: str) -> list[str | None]:
+    column: Column[Any] = Column(name, "attribute", "token", optional=True)
+    column.name = name
+    rows = Rows(len(elements), origin=resource.columns, ordinals=elements.astype(np.int32))
+    found: list[str | None] = resource.columns.column(rows, column)
+    return found
 
 
 def _paths(resource: Resource, elements: Array) -> list[str]:
