@@ -48,6 +48,19 @@ def test_with_every_option(world: World, options: dict[str, object]) -> None:
     assert compare(world, again) == []
 
 
+@pytest.mark.parametrize("place", [(0, 0, 12), (0, 0, -7), (5e5, 0, -3e5)])
+def test_a_tilted_plane_far_out_in_a_union(place: tuple[float, float, float]) -> None:
+    """What is left of its displacement is as exact as what it is left of."""
+    world = World()
+    plane = world.create_plane(1, (0, 1, 0), 0, "iron", fixed=True)
+    inner = world.create_union(2, [plane], position=(0, 0, 0))
+    inner.position = place
+    world.create_union(3, [inner], position=(0, 0, 0))
+    again, document = there_and_back(world, shape_weight="density")
+    assert compare(world, again) == []
+    assert [finding.code for finding in document.report] == []
+
+
 @settings(max_examples=15)
 @given(worlds())
 def test_the_same_world_gives_the_same_bytes(world: World) -> None:

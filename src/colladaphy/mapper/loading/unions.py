@@ -183,6 +183,9 @@ class _Unions:
         unit = Poses.of(len(rows), own.positions, unit_quaternions(own.orientations),
                         moved=own.moved, turned=own.turned)  # fmt: skip
         where = outer.then(unit)
+        # A plane through the origin tells nothing of how far away it was made.
+        away = np.abs(where.positions).max(axis=1, initial=0.0)
+        extents = np.maximum(extents, np.where(np.isfinite(away), away, 0.0))
         kinds, dimensions, _ = deciding.dimensions(
             self._rows[rows], self._members, described, extents, planes_at(where), self._world
         )
