@@ -25,9 +25,9 @@ __all__ = ["Conversion", "conversion", "convert"]
 Array = NDArray[Any]
 
 _HALF = math.sqrt(0.5)
-# Rotations that turn one up axis onto another, as authoring tools do (the spec's right, up, in).
+# Rotations that keep what the axes mean (right, up, in: §up_axis has -y, x, z for X_UP).
 _TO_Z_UP: dict[str, Quaternion] = {
-    "X_UP": (_HALF, 0.0, -_HALF, 0.0),
+    "X_UP": (0.5, 0.5, -0.5, 0.5),
     "Y_UP": (_HALF, _HALF, 0.0, 0.0),
     "Z_UP": (1.0, 0.0, 0.0, 0.0),
 }

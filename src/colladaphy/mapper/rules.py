@@ -190,6 +190,13 @@ HULL = Rule(
     None,
     "COLLADA 1.5 §convex_mesh",
 )
+OPEN = Rule(
+    "load-mesh-open",
+    _WARNING,
+    "The faces of a mesh do not enclose a volume: its convex hull is taken.",
+    "Close the surface, and wind its faces counter-clockwise as seen from outside.",
+    "COLLADA 1.5 §mesh",
+)
 STALE = Rule(
     "profile-stale",
     _WARNING,
@@ -238,6 +245,7 @@ RULES = (
     MATERIAL_RENAMED,
     SYSTEM_ID_TAKEN,
     HULL,
+    OPEN,
     STALE,
     BAD_PROFILE,
     CHECKSUM,

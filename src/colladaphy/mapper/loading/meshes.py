@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from colladaphy.errors import DocumentError, WorldError
 from colladaphy.mapper import rules
 from colladaphy.mapper.hull import convex_hull
+from colladaphy.mapper.loading.closedness import are_closed
 from colladaphy.mapper.loading.surfaces import Surface, read_surfaces
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy.world import Mesh, World
@@ -86,7 +87,32 @@ class Geometries:
                 self._known[row] = ShapeFault(f"The geometry {name!r} has no faces.")
                 continue
             made.append((row, vertices, faces, convex))
-        self._create(made)
+        self._create(self._closed(made))
+
+    def _closed(
+        self, made: list[tuple[int, Array, Array, bool]]
+    ) -> list[tuple[int, Array, Array, bool]]:
+        """The same with the hull in place of what encloses no volume; our own were asked before."""
+        names = self._tables.geometries.texts("id")
+        foreign = [place for place, (row, *_) in enumerate(made)
+                   if _OUR_ID.match(names[row] or "") is None]  # fmt: skip
+        closed = are_closed([made[place][1:3] for place in foreign])
+        left = list(made)
+        dropped: set[int] = set()
+        for place in np.array(foreign, np.int64)[~closed].tolist():
+            row, vertices, faces, _ = made[place]
+            hull = convex_hull(vertices[np.unique(faces)])
+            home, element = self._place(row)
+            if hull is None:
+                self._known[row] = ShapeFault(
+                    f"The geometry {names[row]!r} has no volume.", empty=True
+                )
+                dropped.add(place)
+                continue
+            message = f"The surface of geometry {names[row]!r} has holes: its convex hull counts."
+            self._tables.resource.note(rules.OPEN, element, message, home=home)
+            left[place] = (row, *hull, True)
+        return [one for place, one in enumerate(left) if place not in dropped]
 
     def _create(self, made: list[tuple[int, Array, Array, bool]]) -> None:
         """Create the meshes, one by one where the World does not take all of them."""

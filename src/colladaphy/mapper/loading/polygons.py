@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.mapper.loading.ears import triangles_of
+
 __all__ = ["corner_layout", "triangulated"]
 
 Array = NDArray[Any]
@@ -29,8 +31,15 @@ def triangulated(rows: Any, name: str, points: list[Array]) -> list[Array]:
     stride, offset = corner_layout(rows)
     lists: list[list[tuple[int, Array]]] = [[] for _ in range(len(rows))]
     _collect(lists, rows.p, rows.p.owner, stride, offset)
-    if name == "polygons":
-        _collect(lists, rows.ph.p, rows.ph.owner[rows.ph.p.owner], stride, offset)
+    holed: list[list[tuple[int, Array]]] = [[] for _ in range(len(rows))]
+    if name == "polygons" and len(rows.ph):
+        _collect(holed, rows.ph.p, rows.ph.owner[rows.ph.p.owner], stride, offset)
+        holes = _holes(rows.ph, stride, offset)
+        for row, found in enumerate(holed):
+            lists[row] += [
+                (order, _with_holes(part, holes.get(int(order), []), points[row]))
+                for order, part in found
+            ]
     made = []
     for row, found in enumerate(lists):
         corners = [part for _, part in sorted(found, key=lambda entry: entry[0])]
@@ -41,7 +50,21 @@ def triangulated(rows: Any, name: str, points: list[Array]) -> list[Array]:
         elif name == "trifans":
             made.append(_joined([_fan(part) for part in corners]))
         else:
-            made.append(_joined([_polygon(part, points[row]) for part in corners]))
+            made.append(_joined([
+                part if part.ndim == 2 else _polygon(part, points[row]) for part in corners
+            ]))  # fmt: skip
+    return made
+
+
+def _holes(outlines: Any, stride: Array, offset: Array) -> dict[int, list[Array]]:
+    """The holes of polygons, by the element of the outline."""
+    inner = outlines.h
+    element = dict(zip(outlines.p.owner.tolist(), outlines.p.ordinals.tolist(), strict=True))
+    made: dict[int, list[Array]] = {}
+    for place, owner in enumerate(inner.owner.tolist()):
+        row = int(outlines.owner[owner])
+        corners = inner.value[place][int(offset[row]) :: int(stride[row])].astype(np.int64)
+        made.setdefault(element[owner], []).append(corners)
     return made
 
 
@@ -93,33 +116,20 @@ def _polygon(corners: Array, points: Array) -> Array:
     turns = np.cross(after - ring, np.roll(after, -1, axis=0) - after) @ normal
     if np.all(turns >= 0):
         return _fan(corners)
-    return _ears(corners, ring, normal)
+    return _with_holes(corners, [], points)
 
 
-def _ears(corners: Array, ring: Array, normal: Array) -> Array:
-    left = list(range(len(corners)))
-    triangles: list[list[int]] = []
-    while len(left) > 3:
-        for place in range(len(left)):
-            a, b, d = left[place - 1], left[place], left[(place + 1) % len(left)]
-            if _is_ear(ring, normal, a, b, d, left):
-                break
-        else:
-            place, a, b, d = 0, left[-1], left[0], left[1]
-        triangles.append([a, b, d])
-        del left[place]
-    triangles.append(left)
-    return np.asarray(corners[np.array(triangles)])
-
-
-def _is_ear(ring: Array, normal: Array, a: int, b: int, d: int, left: list[int]) -> bool:
-    one, two, three = ring[a], ring[b], ring[d]
-    if np.cross(two - one, three - two) @ normal <= 0:
-        return False
-    others = np.array([other for other in left if other not in (a, b, d)], np.int64)
-    points = ring[others]
-    sides = [
-        np.cross(end - start, points - start) @ normal
-        for start, end in ((one, two), (two, three), (three, one))
-    ]
-    return not bool(np.any(np.min(sides, axis=0) >= 0))
+def _with_holes(corners: Array, holes: list[Array], points: Array) -> Array:
+    """A polygon with holes as triangles, whichever way these are wound."""
+    every = np.concatenate([corners, *holes])
+    if len(corners) < 3 or not len(points) or every.min() < 0 or every.max() >= len(points):
+        return _fan(every[: max(3, len(corners))])
+    ring = points[corners]
+    normal = np.cross(ring, np.roll(ring, -1, axis=0)).sum(axis=0)
+    # As seen along the axis that it faces most, which keeps all turns.
+    axis = int(np.argmax(np.abs(normal)))
+    first, second = ((1, 2), (2, 0), (0, 1))[axis]
+    flat = list(map(tuple, points[every][:, [first, second]].tolist()))
+    ends = np.cumsum([len(corners), *(len(hole) for hole in holes)]).tolist()
+    parts = [flat[start:end] for start, end in zip([0, *ends], ends, strict=False)]
+    return np.asarray(every[np.array(triangles_of(parts[0], parts[1:]), np.int64)])

@@ -1,0 +1,105 @@
+"""Polygons and their holes as triangles."""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from colladaphy.mapper.loading.closedness import are_closed
+from colladaphy.mapper.loading.ears import triangles_of
+
+Point = tuple[float, float]
+
+
+def area(ring: list[Point]) -> float:
+    """By the shoelace formula."""
+    x, y = np.array(ring).T
+    return float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y) / 2)
+
+
+def star(
+    count: int, middle: Point = (0.0, 0.0), radii: tuple[float, ...] = (1.0, 0.4)
+) -> list[Point]:
+    """A polygon around a point, its corners at these distances in turn."""
+    x, y = middle
+    return [
+        (x + radii[at % len(radii)] * math.cos(math.tau * at / count),
+         y + radii[at % len(radii)] * math.sin(math.tau * at / count))
+        for at in range(count)
+    ]  # fmt: skip
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.integers(3, 60),
+    st.lists(st.floats(0.2, 3.0), min_size=1, max_size=9).map(tuple),
+    st.booleans(),
+)
+def test_a_polygon_is_covered_once(count: int, radii: tuple[float, ...], clockwise: bool) -> None:
+    ring = star(count, radii=radii)
+    if clockwise:
+        ring.reverse()
+    triangles = triangles_of(ring, [])
+    assert len(triangles) == count - 2
+    parts = [area([ring[at] for at in triangle]) for triangle in triangles]
+    assert math.isclose(sum(parts), area(ring), rel_tol=1e-9, abs_tol=1e-12)
+    assert all(part * math.copysign(1, area(ring)) >= -1e-12 for part in parts)
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.integers(0, 15), min_size=1, max_size=8, unique=True),
+    st.lists(st.floats(0.2, 1.1), min_size=3, max_size=9).map(tuple),
+    st.booleans(),
+    st.booleans(),
+)
+def test_holes_are_left_out(
+    cells: list[int], radii: tuple[float, ...], clockwise: bool, hole_clockwise: bool
+) -> None:
+    outline = [(0.0, 0.0), (10.0, 0.0), (10.0, 10.0), (0.0, 10.0)]
+    holes = [
+        star(len(radii), (cell % 4 * 2.5 + 1.25, cell // 4 * 2.5 + 1.25), radii) for cell in cells
+    ]
+    want = 100.0 - sum(area(hole) for hole in holes)
+    if clockwise:
+        outline.reverse()
+    if hole_clockwise:
+        holes = [hole[::-1] for hole in holes]
+    points = [*outline, *(point for hole in holes for point in hole)]
+    sign = -1 if clockwise else 1
+    parts = [
+        sign * area([points[at] for at in triangle]) for triangle in triangles_of(outline, holes)
+    ]
+    assert math.isclose(sum(parts), want, rel_tol=1e-9)
+    assert min(parts) >= -1e-12
+
+
+@pytest.mark.parametrize("count", [400, 800])
+def test_many_corners_take_little_time(count: int) -> None:
+    ring = star(count)
+    start = time.process_time()
+    assert len(triangles_of(ring, [])) == count - 2
+    assert time.process_time() - start < 0.5  # half a minute, once
+
+
+_CUBE = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
+_FACES = np.array([
+    (0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6),
+    (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3),
+])  # fmt: skip
+
+
+def test_surfaces_are_closed_where_every_edge_is_passed_both_ways() -> None:
+    apart = _CUBE[_FACES].reshape(-1, 3)  # each face with vertices of its own
+    turned = _FACES.copy()
+    turned[3] = turned[3, ::-1]
+    found = are_closed([
+        (_CUBE, _FACES), (_CUBE, _FACES[1:]), (apart, np.arange(36).reshape(-1, 3)),
+        (_CUBE, turned), (_CUBE, np.concatenate([_FACES[:8]])),
+    ])  # fmt: skip
+    assert found.tolist() == [True, False, True, False, False]
