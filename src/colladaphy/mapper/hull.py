@@ -1,8 +1,9 @@
 """The convex hull of points in space, for geometries that are given as one.
 
-The incremental algorithm: begin with a tetrahedron, and for each point outside of it replace the
-faces that the point sees by a cone from the rim. Points are taken in an order of decreasing
-distance from the middle, so that most of the others are found inside at once.
+Quickhull: begin with a tetrahedron; each face keeps the points in front of it, and the farthest of
+them replaces the faces that it sees by a cone from their rim. Only the points of these faces are
+looked at again, so that the time grows little faster than the number of points. Sums are taken in
+one order, so that the bits are the same everywhere.
 """
 
 from __future__ import annotations
@@ -61,34 +62,91 @@ def _tetrahedron(points: Array) -> list[int] | None:
 
 def _grow(points: Array, start: list[int]) -> Array:
     a, b, d, e = start
-    faces = np.array([[a, b, d], [a, e, b], [b, e, d], [d, e, a]])
-    normals, offsets = _planes(points, faces)
-    order = np.argsort(-np.linalg.norm(points, axis=1), kind="stable")
-    for index in order.tolist():
-        if index in start:
-            continue
-        seen = normals @ points[index] - offsets > _TOLERANCE
-        if not seen.any():
-            continue
-        rim = _rim(faces[seen])
-        cone = np.column_stack([rim, np.full(len(rim), index)])
-        cone_normals, cone_offsets = _planes(points, cone)
-        faces = np.concatenate([faces[~seen], cone])
-        normals = np.concatenate([normals[~seen], cone_normals])
-        offsets = np.concatenate([offsets[~seen], cone_offsets])
-    return faces
+    hull = _Hull(points)
+    hull.add([(a, b, d), (a, e, b), (b, e, d), (d, e, a)], np.delete(np.arange(len(points)), start))
+    while hull.waiting:
+        hull.take()
+    return np.array(list(hull.faces.values()))
+
+
+class _Hull:
+    """Faces by number, each with the points in front of it."""
+
+    def __init__(self, points: Array) -> None:
+        self._points = points
+        self.faces: dict[int, tuple[int, int, int]] = {}
+        self.waiting: dict[int, Array] = {}
+        """The points in front of faces, of those that have some; the farthest comes first."""
+        self._planes: dict[int, tuple[float, float, float, float]] = {}
+        self._edges: dict[tuple[int, int], int] = {}
+        """The face on the left of each edge."""
+        self._count = 0
+
+    def add(self, faces: list[tuple[int, int, int]], loose: Array) -> None:
+        """Add faces, and give each of the points to one that it is in front of, if there is one."""
+        first = self._count
+        self._count += len(faces)
+        normals, offsets = _planes(self._points, np.array(faces))
+        for number, (face, normal, offset) in enumerate(
+            zip(faces, normals.tolist(), offsets.tolist(), strict=True), first
+        ):
+            one, two, three = face
+            self.faces[number] = face
+            self._planes[number] = (*normal, offset)
+            self._edges[one, two] = self._edges[two, three] = self._edges[three, one] = number
+        if not len(loose):
+            return
+        x, y, z = self._points[loose].T[:, :, None]
+        heights = x * normals[:, 0] + y * normals[:, 1] + z * normals[:, 2] - offsets
+        nearest = np.argmax(heights, axis=1)
+        height = heights[np.arange(len(loose)), nearest]
+        ahead = height > _TOLERANCE
+        for face in np.unique(nearest[ahead]).tolist():
+            mine = np.flatnonzero(ahead & (nearest == face))
+            top = int(np.argmax(height[mine]))
+            mine[0], mine[top] = mine[top], mine[0]
+            self.waiting[first + face] = loose[mine]
+
+    def take(self) -> None:
+        """Take the farthest point in front of the face that waits the longest into the hull."""
+        begin = next(iter(self.waiting))
+        point = int(self.waiting[begin][0])
+        x, y, z = self._points[point].tolist()
+        seen, rim = {begin}, list[tuple[int, int]]()
+        stack = [begin]
+        while stack:
+            one, two, three = self.faces[stack.pop()]
+            for edge in ((one, two), (two, three), (three, one)):
+                beyond = self._edges[edge[1], edge[0]]
+                if beyond in seen:
+                    continue
+                a, b, c, d = self._planes[beyond]
+                if a * x + b * y + c * z - d > _TOLERANCE:
+                    seen.add(beyond)
+                    stack.append(beyond)
+        for number in sorted(seen):
+            one, two, three = self.faces[number]
+            for edge in ((one, two), (two, three), (three, one)):
+                if self._edges[edge[1], edge[0]] not in seen:
+                    rim.append(edge)
+        loose = []
+        for number in sorted(seen):
+            one, two, three = self.faces.pop(number)
+            del self._planes[number]
+            for edge in ((one, two), (two, three), (three, one)):
+                del self._edges[edge]
+            if number in self.waiting:
+                loose.append(self.waiting.pop(number))
+        left = np.concatenate(loose)
+        self.add([(*edge, point) for edge in rim], left[left != point])
 
 
 def _planes(points: Array, faces: Array) -> tuple[Array, Array]:
-    corners = points[faces]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    one, two, three = points[faces].transpose(1, 2, 0)
+    (a, b, c), (d, e, f) = two - one, three - one
+    normals = np.array([b * f - c * e, c * d - a * f, a * e - b * d])
+    x, y, z = normals
+    lengths = np.sqrt(x * x + y * y + z * z)
     normals = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
-    return normals, np.einsum("fi,fi->f", normals, corners[:, 0])
-
-
-def _rim(faces: Array) -> Array:
-    """The edges that only one of the faces has, in its direction."""
-    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
-    known = {(first, second) for first, second in edges.tolist()}
-    return np.array([edge for edge in edges.tolist() if (edge[1], edge[0]) not in known])
+    x, y, z = normals
+    return normals.T, x * one[0] + y * one[1] + z * one[2]
