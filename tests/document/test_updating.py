@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import time
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +14,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 from tests.strategies.worlds import worlds
+from tests.thesis.listings import listing_3, listing_4, listing_5
 
 import colladaphy
 from colladaphy.document import Document
 from colladaphy.errors import DocumentError
-from colladaphy.world import EngineState, World, compare
+from colladaphy.world import BodyColumns, EngineState, Kind, World, compare
 from colladaphy.world.materials import VALUES
 
 COLLADA = "http://www.collada.org/2008/03/COLLADASchema"
@@ -370,6 +373,65 @@ def step_of(step: Any) -> Any:
     return made
 
 
+# --- other scenes, other spellings
+
+
+def test_bodies_of_other_scenes_stay_where_they_are() -> None:
+    document = two('<node id="a"><translate>1 2 3</translate></node><node id="b"/>')
+    library = find(document, "//c:library_physics_scenes")[0]
+    other = etree.fromstring(etree.tostring(library[0]))
+    other.set("id", "other")
+    library.append(other)
+    before = document.scenes["other"].load()
+    world = document.load()
+    world.positions += 1.0
+    world.masses *= 2.0
+    document.update(world)
+    reads_back(document, world)
+    assert compare(reread(document).scenes["other"].load(), before) == []
+
+
+@pytest.mark.parametrize("listing", [listing_3, listing_4, listing_5])
+def test_the_profile_in_the_spelling_of_the_thesis(listing: Any) -> None:
+    document = colladaphy.read(listing())
+    world = document.load()
+    for moved in world.bodies:
+        if not moved.fixed:
+            moved.position = (1, 2, 3)
+            moved.rotate(0.1, 0.2, 0.3)
+            moved.linear_velocity = (1, 2, 3)
+    world.time = 1.0
+    document.update(world)
+    reads_back(document, world)
+    assert len(reread(document).load().member_columns.kinds) == len(world.member_columns.kinds)
+
+
+def test_bodies_of_mass_alone() -> None:
+    world = World()
+    world.create_body(1, (1, 2, 3), 4.0, (1, 2, 3))
+    document = stored(world)
+    for _ in range(3):
+        loaded = document.load()
+        loaded.masses *= 2.0
+        loaded.create_body(2, (3, 2, 1), 1.0, (1, 1, 1))
+        document.update(loaded)
+        reads_back(document, loaded)
+    assert len(find(document, "//c:geometry")) == 1
+
+
+def test_joints_at_nodes_of_the_world() -> None:
+    joint = '<instance_rigid_constraint constraint="hinge"/>'
+    nodes = '<node id="a"><node id="b"><translate>0 0 1</translate></node></node>'
+    constraint = JOINT.replace("model/two", "#b")
+    instances = instance("one", "a") + instance("two", "b") + joint
+    document = scene(nodes, body("one") + body("two"), instances, constraints=constraint)
+    world = document.load()
+    assert world.joints[0].body2 is None
+    world.positions += 1.0
+    document.update(world)
+    reads_back(document, world)
+
+
 # --- values, bodies and joints
 
 
@@ -607,3 +669,63 @@ def test_chosen_scenes() -> None:
     document.update(world, scenes=["physics"])
     again = reread(document)
     assert compare(again.scenes["physics"].load(), world) == []
+
+
+# --- time
+
+
+def _many(count: int) -> Document:
+    world = World()
+    sizes = np.zeros((count, 4))
+    sizes[:, 0] = 1.0
+    places = np.random.default_rng(1).normal(size=(count, 3))
+    kinds = np.full(count, int(Kind.SPHERE))
+    world.extend(BodyColumns(kinds=kinds, dimensions=sizes, positions=places))
+    for first, second in pairwise(list(world.bodies)[: count // 4]):
+        world.attach_ball_joint(first, second)
+    return stored(world)
+
+
+def _move(world: World) -> None:
+    world.positions += 1.0
+    world.linear_velocities += 1.0
+
+
+def _exchange(world: World) -> None:
+    """Half of the bodies go, as many come, and the others have another mass."""
+    count = len(world.bodies)
+    for body_ in list(world.bodies)[::2]:
+        world.destroy(body_)
+    world.masses *= 2.0
+    sizes = np.zeros((count // 2, 4))
+    sizes[:, 0] = 1.0
+    world.extend(BodyColumns(kinds=np.full(count // 2, int(Kind.SPHERE)), dimensions=sizes))
+
+
+@pytest.mark.parametrize("change", [_move, _exchange])
+def test_time_grows_with_the_document(change: Any) -> None:
+    spent = []
+    for count in (1000, 8000):
+        tries = []
+        for _ in range(2):
+            document = _many(count)
+            world = document.load()
+            change(world)
+            began = time.process_time()
+            document.update(world)
+            tries.append(time.process_time() - began)
+        spent.append(min(tries))
+    assert spent[1] < 16 * spent[0], spent
+
+
+def test_deep_nodes_are_placed_exactly() -> None:
+    count = 60
+    steps = "<translate>1 0 0</translate><rotate>0 1 1 3</rotate>"
+    nodes = "".join(f'<node id="n{at}">{steps}' for at in range(count)) + "</node>" * count
+    document = scene(nodes, "".join(body(f"b{at}") for at in range(count)),
+                     "".join(instance(f"b{at}", f"n{at}") for at in range(count)))  # fmt: skip
+    world = document.load()
+    world.positions += np.random.default_rng(2).normal(size=(count, 3))
+    document.update(world)
+    reads_back(document, world)
+    assert not [f for f in document.report if f.code.startswith("store-")]

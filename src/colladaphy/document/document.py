@@ -12,7 +12,6 @@ from colladaphy.document.adding import with_scene
 from colladaphy.document.finding import find
 from colladaphy.document.merge import merge
 from colladaphy.document.scenes import Choosable, Model, Scene, Scenes
-from colladaphy.document.updating import updated
 from colladaphy.document.values import schema_errors
 from colladaphy.document.writing import Output, write_document
 from colladaphy.errors import DocumentError
@@ -242,6 +241,8 @@ class Document(Choosable):
         `root` has to be taken anew afterwards. Raises DocumentError where the World is not of this
         document: its unit or up axis is another one.
         """
+        from colladaphy.document.updating import updated  # much that only this needs
+
         self._same_unit(world)
         resource = self._current()
         known = Scenes(self, resource)

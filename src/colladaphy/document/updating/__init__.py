@@ -59,7 +59,7 @@ def updated(
 
 def _quiet(resource: Resource, tree: etree._ElementTree | None = None) -> Resource:
     """The same document, whose findings are its own."""
-    data = resource.data if tree is None else None
+    data = resource.data if tree is None and not resource.has_other_spelling else None
     return Resource(resource.shown_tree if tree is None else tree, data, file=resource.file,
                     report=Report(resource.file), opener=resource.opener, family=resource.family,
                     tolerant=True, member=resource.member)  # fmt: skip

@@ -17,7 +17,7 @@ from colladaphy.document.updating.bodies import (
     set_motion,
 )
 from colladaphy.document.updating.differences import Differences
-from colladaphy.document.updating.elements import child, drop, name_after, put
+from colladaphy.document.updating.elements import child, drop, name_after, put, put_next
 from colladaphy.document.updating.joints import add_frame
 from colladaphy.document.updating.nodes import Nodes, transforms_of
 from colladaphy.document.updating.owning import Owner
@@ -66,6 +66,7 @@ class Edit:
         self._target: tuple[etree._Element, etree._Element] | None = None
         self._labels: dict[int, etree._Element] = {}
         self._taken: dict[str, set[str]] = {}
+        self._last: dict[tuple[etree._Element, str], etree._Element] = {}
         self._referred: dict[etree._Element, set[str]] = {}
         self._make_own()
         self._write_bodies()
@@ -245,6 +246,17 @@ class Edit:
                 self._target = self._scene.add_model()
         return self._target
 
+    def _append(
+        self, parent: etree._Element, node: etree._Element, before: tuple[str, ...]
+    ) -> None:
+        """Put an element in, behind the one of its kind that was put in last."""
+        key = parent, str(node.tag)
+        if key in self._last:
+            put_next(node, self._last[key])
+        else:
+            put(parent, node, before)
+        self._last[key] = node
+
     def _label(self, model: etree._Element, kind: str, wanted: str) -> str:
         """A sid that is free in the model that takes what is new."""
         if kind not in self._taken:
@@ -261,11 +273,11 @@ class Edit:
         pin(body, "body", "Body", sid)
         for element in foreign:
             body.append(element)
-        put(model, body, ("asset", "rigid_body"))
+        self._append(model, body, ("asset", "rigid_body"))
         instance.set("body", label)
         name = self._nodes.add(f"Node{sid}", list(node))
         instance.set("target", f"#{name}")
-        put(effect, instance, ("instance_force_field", "instance_rigid_body"))
+        self._append(effect, instance, ("instance_force_field", "instance_rigid_body"))
         self._labels[sid] = body
 
     # --- joints
@@ -328,11 +340,11 @@ class Edit:
         label = self._label(model, "rigid_constraint", f"Joint{sid}")
         made.set("sid", label)
         pin(made, "joint", "Joint", sid)
-        put(model, made, ("asset", "rigid_body", "rigid_constraint"))
+        self._append(model, made, ("asset", "rigid_body", "rigid_constraint"))
         instance = etree.Element(c("instance_rigid_constraint"))
         instance.set("constraint", label)
         before = ("instance_force_field", "instance_rigid_body", "instance_rigid_constraint")
-        put(effect, instance, before)
+        self._append(effect, instance, before)
 
 
 def _by_place(matrices: dict[int, NDArray[np.float64]], rows: Array) -> dict[int, Any]:

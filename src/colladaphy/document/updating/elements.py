@@ -23,6 +23,7 @@ __all__ = [
     "profile_element",
     "put",
     "put_first",
+    "put_next",
     "replace_profile",
     "retarget",
 ]
@@ -51,9 +52,16 @@ def children(parent: etree._Element, *names: str) -> list[etree._Element]:
 
 def put(parent: etree._Element, node: etree._Element, before: Sequence[str]) -> None:
     """Put a child in, behind all those of the names that come before it or that it has itself."""
-    known = {*before, local(node)}
-    behind = (other for other in parent.iterchildren(reversed=True) if local(other) in known)
+    tags = {c(name) for name in (*before, local(node))}
+    behind = parent.iterchildren(*tags, reversed=True)
     _insert(parent, next(behind, None), node)
+
+
+def put_next(node: etree._Element, previous: etree._Element) -> None:
+    """Put an element in behind another one."""
+    parent = previous.getparent()
+    assert parent is not None
+    _insert(parent, previous, node)
 
 
 def put_first(parent: etree._Element, nodes: Sequence[etree._Element], behind: str) -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.links.poses import Poses
+from colladaphy.links.poses import Poses, unit_quaternions
 from colladaphy.links.steps import matrix_of, product, rigid_parts
 from colladaphy.mapper import Loaded
 
@@ -75,6 +75,8 @@ class _Placing:
         self._own = self._placement.own()
         there = self._nodes >= 0
         uses = np.bincount(self._nodes[there], minlength=len(self._above))
+        others = _other_targets(loaded)
+        uses += np.bincount(others, minlength=len(uses))[: len(uses)]
         shared = self._placement.shared()
         homes = self._placement.nodes.homes(np.maximum(self._nodes, 0))
         self._movable = there & ~wishes.apart & (homes == 0)
@@ -173,6 +175,8 @@ class _Placing:
             if len(mine):
                 who = bodies[rest[mine]]
                 made = outer.take(mine).inverse().then(local.take(who))
+                # As a reader has it, and so that lengths do not grow with the depth.
+                made.orientations = unit_quaternions(made.orientations)
                 self._set(who, made, inner.take(mine))
                 inner.put(mine, made)
             world.poses.put(rows[rest], outer.then(inner))
@@ -245,6 +249,21 @@ class _Placing:
         rest = _quotient(_matrix(rigid, 0), old)
         rest[:3, 3] = 0.0
         return product(at, rest)
+
+
+def _other_targets(loaded: Loaded) -> Rows:
+    """The nodes of bodies that are not loaded, such as those of other scenes."""
+    tables, found = loaded.tables, loaded.bodies.found
+    table = tables.body_instances
+    left = np.setdiff1d(np.flatnonzero(table.homes(np.arange(len(table))) == 0), found.rows)
+    if not len(left):
+        return left
+    texts = table.texts("target")
+    nodes, _ = tables.pool.follow(
+        tables.placement.nodes, [texts[row] for row in left.tolist()],
+        np.zeros(len(left), np.int64), table.ordinals[left], "node",
+    )  # fmt: skip
+    return np.asarray(nodes[nodes >= 0])
 
 
 class _Frames:

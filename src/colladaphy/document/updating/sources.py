@@ -20,6 +20,7 @@ __all__ = ["Sources"]
 
 _MATERIAL = re.compile(r"#Material(\d+)\Z")
 _MESH = re.compile(r"#Mesh(\d+)\Z")
+_NO_SHAPE = re.compile(r"(?:.*-)?NoShape\Z")
 
 
 class Sources:
@@ -56,12 +57,19 @@ class Sources:
             return self._known(self._loaded.tables.materials, row)
         mesh = _MESH.match(url)
         if not mesh:
-            return None
+            return self._no_shape()
         before = self._loaded.world.meshes.get(int(mesh[1]))
         after = self._world.meshes[int(mesh[1])]
         if before is None or not (before is after or before.same_as(after)):
             return None
         return self._known(self._loaded.tables.geometries, self._meshes.get(before.id))
+
+    def _no_shape(self) -> str | None:
+        """The geometry of ours that stands for no shape."""
+        table = self._loaded.tables.geometries
+        ids = enumerate(table.texts("id"))
+        ours = (row for row, id in ids if id is not None and _NO_SHAPE.match(id))
+        return self._known(table, next(ours, None))
 
     def _known(self, table: Any, row: int | None) -> str | None:
         if row is None:

@@ -346,12 +346,12 @@ class _Loading:
         mine = rows[motions.has_position[rows]]
         if len(mine):
             stated, exact = poses.positions[mine], motions.position[mine]
-            same = deciding.sameness.each(mine, stated, exact)
+            same = deciding.pose_sameness.each(mine, stated, exact)
             left = np.flatnonzero(~same)
             if len(left):
                 sums = self._sums(origin)
                 left = left[sums.steps[mine[left]] > 0]
-                same[left] = deciding.sameness.whole(
+                same[left] = deciding.pose_sameness.whole(
                     mine[left], stated[left], exact[left], sums.sizes[mine[left]]
                 )
             taken = mine[deciding.take("position", mine, stated, exact, same, instance=True)]
@@ -360,11 +360,13 @@ class _Loading:
         mine = rows[motions.has_orientation[rows]]
         if len(mine):
             stated, exact = poses.orientations[mine], motions.orientation[mine]
-            same = deciding.sameness.turn(mine, stated, exact)
+            same = deciding.pose_sameness.turn(mine, stated, exact)
             left = np.flatnonzero(~same)
             if len(left):
                 steps = self._sums(origin).steps[mine[left]]
-                same[left] = deciding.sameness.turn(mine[left], stated[left], exact[left], steps)
+                same[left] = deciding.pose_sameness.turn(
+                    mine[left], stated[left], exact[left], steps
+                )
             taken = mine[deciding.take("orientation", mine, stated, exact, same, instance=True)]
             poses.orientations[taken] = motions.orientation[taken]
             poses.turned[taken] = True

@@ -22,6 +22,7 @@ from colladaphy.world.kinds import Kind
 __all__ = ["Deciding", "Prefer"]
 
 Array = NDArray[Any]
+_STEPS = ("lookat", "matrix", "rotate", "scale", "skew", "translate")
 Prefer = Literal["newer", "profile", "common"]
 
 
@@ -33,6 +34,8 @@ class Deciding:
         self._bodies = bodies
         self.prefer = prefer
         self.sameness = Sameness(len(bodies), self._tolerance)
+        self.pose_sameness = Sameness(len(bodies), self._pose_tolerance)
+        """The same for where bodies are, which their nodes say."""
         self.edited = np.zeros(len(bodies), np.bool_)
         """Bodies of which a shape was edited in the common profile."""
 
@@ -46,6 +49,21 @@ class Deciding:
                 homes[int(bodies.homes[body])], int(tables.body_instances.ordinals[instance])
             ),
         )
+
+    def _pose_tolerance(self, body: int) -> float:
+        """What the transforms of the node tell beside the record of the body."""
+        nodes = self._tables.placement.nodes
+        row = self._bodies.nodes[body : body + 1]
+        if row[0] < 0:
+            return self._tolerance(body)
+        home = self._tables.pool.resources[int(nodes.homes(row)[0])]
+        node = int(nodes.ordinals[row[0]])
+        steps, element, end = [], node + 1, home.columns.end_of(node)
+        while element < end:
+            if home.columns.local_name(element) in _STEPS:
+                steps.append(element)
+            element = home.columns.end_of(element)
+        return min(self._tolerance(body), tolerance_of(home, *steps))
 
     def take(
         self,
