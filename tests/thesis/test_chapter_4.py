@@ -102,6 +102,7 @@ def test_4_2_the_thesis_own_spelling_of_planes_is_understood() -> None:
         assert found.kind is Kind.PLANE
         assert found.normal.tolist() == [0.0, 0.0, 1.0]
         assert found.displacement == 2.0
+        assert found.position.tolist() == [5.0, 6.0, 2.0]
 
 
 def test_4_2_the_profile_knows_which_side_is_inside() -> None:

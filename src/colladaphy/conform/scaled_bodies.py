@@ -13,7 +13,7 @@ from colladaphy.conform.conventions.clues import place_of
 from colladaphy.conform.frames import Matrix
 from colladaphy.conform.placing import put_place
 from colladaphy.conform.shapes import GEOMETRIES
-from colladaphy.conform.solids import add_solid, are_usable, ellipsoid, numbers_of
+from colladaphy.conform.solids import are_usable, ellipsoid, numbers_of
 
 __all__ = ["Scaling", "can_scale", "scale_body"]
 
@@ -124,8 +124,8 @@ class Scaling:
     def _ellipsoid(self, shape: etree._Element, solid: etree._Element, sizes: Matrix) -> None:
         """A sphere that is no sphere any more; how it was turned does not matter."""
         radius = numbers_of(solid.find(NS + "radius"))[0]
-        name = add_solid(self.context, "scaled-sphere", ellipsoid((radius * sizes).tolist()))
-        solid.addprevious(self.context.make("instance_geometry", url=f"#{name}"))
+        radii = " ".join(map(repr, (radius * sizes).tolist()))
+        solid.addprevious(ellipsoid(self.context, radii))
         shape.remove(solid)
         place = place_of(shape)
         assert place is not None

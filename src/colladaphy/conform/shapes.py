@@ -121,9 +121,15 @@ def _mend_sphere(context: Context, sphere: etree._Element) -> None:
         context.note(rules.SPHERE_RADII, radius, message)
     elif len(values) == 3 and are_usable(values) and min(values) > 0:
         shape = _parent(sphere)
-        name = _replace(context, sphere, ellipsoid(values), "ellipsoid")
-        message = f"sphere with the radii {before} is an ellipsoid: now the convex mesh #{name}"
+        _put_ellipsoid(context, sphere, before)
+        message = f"sphere with the radii {before} is an ellipsoid: now a capsule without height"
         context.note(rules.SPHERE_RADII, shape, message)
+
+
+def _put_ellipsoid(context: Context, old: etree._Element, radii: str) -> None:
+    """An ellipsoid, which 1.5 has no element for: a capsule of no height with three radii."""
+    insert(_parent(old), _parent(old).index(old), ellipsoid(context, radii))
+    context.stash(old)
 
 
 def lift_inline_meshes(context: Context) -> None:
@@ -140,8 +146,8 @@ def lift_inline_meshes(context: Context) -> None:
                 and min(size) > 0
                 and context.wants(rules.INLINE_MESH)
             ):
-                name = _replace(context, solid, ellipsoid([s / 2 for s in size]), "ellipsoid")
-                message = f"an <ellipsoid> is no shape of 1.5: now the convex mesh #{name}"
+                _put_ellipsoid(context, solid, " ".join(repr(length / 2) for length in size))
+                message = "an <ellipsoid> is no shape of 1.5: now a capsule without height"
                 context.note(rules.INLINE_MESH, shape, message)
 
 

@@ -1,4 +1,4 @@
-"""Shapes that 1.5 has no element for, as convex meshes: tapered solids and ellipsoids.
+"""Shapes that 1.5 has no element for: tapered solids as convex meshes, and ellipsoids.
 
 All stand upright about y and about their centre, as the shapes of COLLADA do (§cylinder).
 """
@@ -60,11 +60,12 @@ def _flat(angle: float) -> float:
     return 0.0 if abs(abs(angle) - math.pi / 2) < 1e-12 else math.cos(angle)
 
 
-def ellipsoid(radii: Sequence[float]) -> list[Ring]:
-    """Outlines of an ellipsoid with these radii along x, y and z."""
-    half = SEGMENTS // 2
-    angles = [math.pi / 2 - math.pi * step / half for step in range(half + 1)]
-    return [(radii[1] * math.sin(a), radii[0] * _flat(a), radii[2] * _flat(a)) for a in angles]
+def ellipsoid(context: Context, radii: str) -> etree._Element:
+    """An ellipsoid with these radii along x, y and z: a capsule of no height has three of them."""
+    capsule = context.make("capsule")
+    capsule.append(context.make("height", "0"))
+    capsule.append(context.make("radius", radii))
+    return capsule
 
 
 def _mesh(rings: Sequence[Ring]) -> tuple[list[tuple[float, float, float]], list[int]]:
