@@ -15,7 +15,7 @@ from tests.engines.scenes import SCENES
 
 import colladaphy
 from colladaphy.cli import run
-from colladaphy.engines import Checkpoints, Simulation
+from colladaphy.engines import Checkpoints, Simulation, create_engine
 from colladaphy.world import World, compare
 
 COMMAND = [sys.executable, "-c", "from colladaphy.cli import main; main()"]
@@ -132,6 +132,68 @@ def test_trajectory_goes_on_where_it_was(scene: Path, tmp_path: Path) -> None:
         assert sorted(one.files) == sorted(two.files)
         for name in one.files:
             np.testing.assert_array_equal(one[name], two[name])
+
+
+def test_a_streamed_trajectory_goes_on_where_it_was(scene: Path, tmp_path: Path) -> None:
+    zarr = pytest.importorskip("zarr")
+    options = ("--checkpoint-every", 20, "--trajectory-every", 5)
+    whole, parts = tmp_path / "whole.npz", tmp_path / "parts.zarr"
+    straight = ("--checkpoint-dir", tmp_path / "straight")
+    assert simulate(scene, "--steps", 60, *options, "--trajectory", whole, *straight) == 0
+    assert simulate(scene, "--steps", 30, *options, "--trajectory", parts) == 0
+    assert simulate(scene, "--steps", 60, *options, "--trajectory", parts, "--resume") == 0
+    group = zarr.open_group(str(parts), mode="r")
+    with np.load(whole) as one:
+        assert group["step"][:].tolist() == one["step_counts"].tolist()
+        np.testing.assert_array_equal(group["positions"][:], one["positions"])
+
+
+def test_outputs_are_checked_before_the_run(
+    scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    never = ("--steps", 10**9)  # a run that begins does not end
+    (tmp_path / "folder").mkdir()
+    for arguments, what in (
+        ((tmp_path / "none" / "out.dae",), "There is no folder"),
+        ((tmp_path / "folder",), "is a folder"),
+        (("--trajectory", "motion.csv"), ".npz or .zarr"),
+        (("--trajectory", "none/motion.npz"), "There is no folder"),
+        ((tmp_path / "out.npz", "--trajectory", "out.npz"), "another file"),
+        (("--engine", "bullet"), "pymunk"),
+        (("--engine-option", "solver=cg"), "--engine"),
+        (("--engine", "mujoco", "--engine-option", "solver"), "KEY=VALUE"),
+    ):
+        assert simulate(scene, *arguments, *never) == 2, arguments
+        assert what in " ".join(capsys.readouterr().err.split()), arguments
+    assert simulate(scene, "--engine", "mujoco", "--engine-option", "colour=red", *never) != 0
+    assert "colour" in capsys.readouterr().err
+
+
+def test_settings_of_the_engine(scene: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out.dae"
+    settings = ("--engine-option", "solver=cg", "--engine-option", "sleep=false")
+    assert simulate(scene, out, "--steps", 20, "--engine", "mujoco", *settings) == 0
+    simulation = Simulation(result(scene), create_engine("mujoco", solver="cg", sleep=False))
+    simulation.run(20)
+    assert compare(result(out), simulation.world) == []
+    simulation = Simulation(result(scene), create_engine("mujoco", solver="newton"))
+    simulation.run(20)
+    assert compare(result(out), simulation.world) != []
+
+
+def test_a_result_that_cannot_be_written_is_kept_in_a_checkpoint(
+    scene: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:  # fmt: skip
+    def full(*_: object) -> None:
+        raise colladaphy.OutputError("No space left.")
+
+    monkeypatch.setattr("colladaphy.cli.simulate._write", full)
+    assert simulate(scene, tmp_path / "out.dae", "--steps", 5) == 2
+    error = capsys.readouterr().err
+    assert "No space left" in error and "nothing of the run is lost" in error
+    resumed = Simulation.resume(scene.with_suffix(".checkpoints"))
+    assert resumed.world.step_count == 5
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])

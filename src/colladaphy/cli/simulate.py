@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import signal
 import sys
@@ -16,17 +17,18 @@ import click
 
 import colladaphy
 from colladaphy.cli.console import note, say
-from colladaphy.cli.files import source_of, target_of
+from colladaphy.cli.files import refuse_same, source_of, target_of
 
 if TYPE_CHECKING:
     from colladaphy.document import Document
-    from colladaphy.engines import Checkpoints, Simulation, Summary, Trajectory
+    from colladaphy.engines import Checkpoints, Engine, Simulation, Summary, Trajectory
     from colladaphy.findings import Finding
     from colladaphy.world import World
 
 __all__ = ["command"]
 
 EXIT_INTERRUPTED = 130
+_TRAJECTORIES = (".npz", ".zarr")
 
 
 @click.command("simulate")
@@ -34,10 +36,17 @@ EXIT_INTERRUPTED = 130
 @click.argument("target", metavar="[OUT]", required=False)
 @click.option(
     "--engine",
-    type=click.Choice(["auto", "pymunk", "mujoco"]),
+    metavar="NAME",
     default="auto",
     show_default=True,
-    help="What runs it: pymunk runs planar scenes, mujoco all.",
+    help="What runs it: pymunk (planar scenes), mujoco (all), or another one that is installed.",
+)
+@click.option(
+    "--engine-option",
+    "settings",
+    multiple=True,
+    metavar="KEY=VALUE",
+    help="A setting of the engine that --engine names (docs/engines.md); may be repeated.",
 )
 @click.option(
     "--steps",
@@ -76,7 +85,11 @@ EXIT_INTERRUPTED = 130
     help="How many checkpoints stay.",
 )
 @click.option("--resume", is_flag=True, help="Go on from the newest checkpoint that is whole.")
-@click.option("--trajectory", metavar="FILE", help="Write the motion of all bodies to FILE (.npz).")
+@click.option(
+    "--trajectory",
+    metavar="FILE",
+    help="Write the motion of all bodies to FILE (.npz), or stream it to a folder (.zarr).",
+)
 @click.option(
     "--trajectory-every",
     type=click.IntRange(min=1),
@@ -89,6 +102,7 @@ def command(
     source: str,
     target: str | None,
     engine: str,
+    settings: tuple[str, ...],
     steps: int,
     dt: float | None,
     seed: int | None,
@@ -110,17 +124,19 @@ def command(
     """
     from colladaphy.engines import Simulation
 
+    _check_outputs(source, target, trajectory)
+    chosen = _engine(engine, settings)
     document, world = _read(source)
     goal = world.step_count + steps
     checkpoints = _series(source, folder, keep, resume=resume, begin=bool(interval))
     if resume:
-        simulation = Simulation.resume(checkpoints.folder, engine, dt, seed)
+        simulation = Simulation.resume(checkpoints.folder, chosen, dt, seed)
         _tell(simulation.report.findings)
         if _is_same(world, simulation.world):
             simulation.document = document
         note(f"Resumed at step {simulation.world.step_count}.")
     else:
-        simulation = Simulation(world, engine, dt, seed, document=document)
+        simulation = Simulation(world, chosen, dt, seed, document=document)
         _tell(simulation.report.findings)
     before = simulation.world.step_count
     recorder = _recorder(trajectory, before) if trajectory else None
@@ -140,15 +156,17 @@ def command(
         spent = time.monotonic() - began
         progress.clear()
         stopped = summary.step_count < goal
-        if recorder is not None and trajectory is not None:
+        if recorder is not None:
             recorder(simulation.world)
-            recorder.save(trajectory)
+            with _kept(simulation, checkpoints):
+                recorder.save_again()
         if stopped:
             path = simulation.checkpoint(checkpoints)
             note(f"Interrupted at step {summary.step_count}; checkpoint: {path}")
             note(f"Go on with: {_again(checkpoints.folder)}")
     if target is not None and not stopped:
-        _write(simulation, source, target)
+        with _kept(simulation, checkpoints):
+            _write(simulation, source, target)
     if target != "-":
         _report(summary, summary.step_count - before, spent)
     return EXIT_INTERRUPTED if stopped else 0
@@ -209,13 +227,82 @@ def _is_same(scene: World, resumed: World) -> bool:
     return True
 
 
-def _recorder(file: str, step_count: int) -> Trajectory:
+def _recorder(file: str, step_count: int) -> Trajectory | _Stream:
     """What records to `file`, after what is there of the run up to the step it begins with."""
     from colladaphy.engines import Trajectory
 
+    if Path(file).suffix == ".zarr":
+        return _Stream(file, step_count)
     if step_count and Path(file).exists():
         return Trajectory.load(file, until=step_count)
     return Trajectory(file)
+
+
+class _Stream:
+    """A trajectory that is on disk but for its last records."""
+
+    def __init__(self, folder: str, step_count: int) -> None:
+        from colladaphy.engines import ZarrTrajectory
+
+        there = step_count > 0 and Path(folder).exists()
+        self._trajectory = ZarrTrajectory(folder, append_until=step_count if there else None)
+
+    def __call__(self, world: World) -> None:
+        self._trajectory(world)
+
+    def save_again(self) -> None:
+        """Write what is still in memory."""
+        self._trajectory.flush()
+
+
+def _check_outputs(source: str, target: str | None, trajectory: str | None) -> None:
+    """Refuse, before the run and not after it, what could not be written."""
+    if trajectory is not None:
+        if Path(trajectory).suffix not in _TRAJECTORIES:
+            known = " or ".join(_TRAJECTORIES)
+            message = f"{trajectory!r} ends in neither {known}."
+            raise click.BadParameter(message, param_hint="--trajectory")
+        refuse_same("--trajectory", trajectory, [source, *([] if target is None else [target])])
+    for option, name in (("OUT", target), ("--trajectory", trajectory)):
+        if name is None or name == "-":
+            continue
+        folder = Path(name).absolute().parent
+        if not folder.is_dir():
+            raise click.BadParameter(f"There is no folder {str(folder)!r}.", param_hint=option)
+        if not os.access(folder, os.W_OK):
+            raise click.BadParameter(f"{str(folder)!r} is not writable.", param_hint=option)
+        if option == "OUT" and Path(name).is_dir():
+            raise click.BadParameter(f"{name!r} is a folder.", param_hint=option)
+
+
+def _engine(name: str, settings: tuple[str, ...]) -> str | Engine:
+    """The engine with its settings; its name where there are none."""
+    from colladaphy.engines import create_engine, engine_names
+
+    if name != "auto" and name not in engine_names():
+        known = ", ".join(("auto", *engine_names()))
+        raise click.BadParameter(f"{name!r} is none of {known}.", param_hint="--engine")
+    if not settings:
+        return name
+    if name == "auto":
+        raise click.UsageError("--engine-option needs an --engine that it is a setting of.")
+    pairs = [setting.partition("=") for setting in settings]
+    wrong = next((setting for setting, (_, sign, _) in zip(settings, pairs, strict=True)
+                  if not sign), None)  # fmt: skip
+    if wrong is not None:
+        raise click.BadParameter(f"{wrong!r} is not KEY=VALUE.", param_hint="--engine-option")
+    return create_engine(name, **{key.strip(): value.strip() for key, _, value in pairs})
+
+
+@contextmanager
+def _kept(simulation: Simulation, checkpoints: Checkpoints) -> Iterator[None]:
+    """Keep the run in a checkpoint if its result cannot be written."""
+    try:
+        yield
+    except (colladaphy.ColladaError, OSError):
+        path = simulation.checkpoint(checkpoints)
+        note(f"The result could not be written; nothing of the run is lost: {path}")
+        raise
 
 
 def _again(folder: Path) -> str:
@@ -228,11 +315,12 @@ def _again(folder: Path) -> str:
         name = parameter.name or ""
         if context.get_parameter_source(name) is not given or name in ("resume", "folder"):
             continue
-        value = str(context.params[name])
-        if isinstance(parameter, click.Argument):
-            words.append(value)
-        else:
-            options += [parameter.opts[0], value]
+        given_values = context.params[name]
+        for value in given_values if isinstance(given_values, tuple) else (given_values,):
+            if isinstance(parameter, click.Argument):
+                words.append(str(value))
+            else:
+                options += [parameter.opts[0], str(value)]
     options += ["--checkpoint-dir", str(folder), "--resume"]
     return shlex.join([*context.command_path.split(), *words, *options])
 
