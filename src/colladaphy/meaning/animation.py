@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.findings import Severity
-from colladaphy.links.rules import MISSING
+from colladaphy.links.rules import MISSING, WRONG_TYPE
 from colladaphy.meaning import animation_rules, link_rules
 from colladaphy.meaning.arrays import sources_of
 from colladaphy.meaning.context import Context
@@ -35,6 +35,8 @@ _MEMBERS: dict[str, tuple[frozenset[str], int]] = {
     "skew": (frozenset(), 7),
 }
 """Names of members, and how many values there are; 0 where that differs."""
+_WHOLE = frozenset({"node", "visual_scene", "geometry", "mesh", "material", "effect", "camera",
+                    "light", "controller", "skin", "animation", "sampler"})  # fmt: skip
 _INDEX = re.compile(r"\((\d+)\)")
 _SPLIT = re.compile(r"(.*?)(\.[A-Za-z_]+|(?:\(\d+\))+)\Z")
 
@@ -107,6 +109,10 @@ def channels(context: Context) -> Iterator[Hit]:
             continue
         target, member = found
         name = context.name(target)
+        if name in _WHOLE:
+            message = f"A <{name}> is nothing that moves; name what is in it."
+            yield Hit(WRONG_TYPE, element, message, (target,), "target", Severity.WARNING)
+            continue
         members, width = _MEMBERS.get(name, (None, 0))
         if member and members is not None and not _has(name, members, width, member):
             message = f"A <{name}> has no member {member!r}."

@@ -15,7 +15,7 @@ from colladaphy.meaning.models import parts_of
 from colladaphy_schema.core_columns import RotateTypeRows, TranslateTypeRows
 from colladaphy_schema.rows import Child, Rows
 
-__all__ = ["AttachmentRows", "Constraints", "constraints_of"]
+__all__ = ["AttachmentRows", "Constraints", "constraints_of", "limits_of"]
 
 Array = NDArray[Any]
 _SIDES = ("ref_attachment", "attachment")
@@ -67,3 +67,20 @@ class Constraints:
 def constraints_of(context: Context) -> Constraints:
     """The constraints of a document."""
     return context.shared(Constraints)
+
+
+def limits_of(context: Context, name: str) -> tuple[Array, Array]:
+    """Lower and upper limits (n, 3) of all constraints; locked where nothing is said."""
+    rows = context.rows(Rows, "rigid_constraint")
+    common = context.children(rows, "technique_common", Rows)
+    limits = context.children(common, "limits", Rows)
+    groups = context.children(limits, name, Rows)
+    owner = common.owner[limits.owner[groups.owner]]
+    made = []
+    for part in ("min", "max"):
+        values = np.zeros((len(rows), 3))
+        found, elements = context.vectors(groups, part, 3)
+        there = elements >= 0
+        values[owner[there]] = found[there]
+        made.append(values)
+    return made[0], made[1]

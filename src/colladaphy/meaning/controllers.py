@@ -61,7 +61,7 @@ def weights(context: Context) -> Iterator[Hit]:
         for each in mine:
             limit = inputs.count(each)
             used = v[1][int(inputs.offsets[each]) :: stride]
-            least = -1 if inputs.semantics[each] == "JOINT" else 0
+            least = 0 if inputs.semantics[each] == "WEIGHT" else -1
             if limit is None or not len(used):
                 continue
             if int(used.max()) >= limit or int(used.min()) < least:

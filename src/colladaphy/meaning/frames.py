@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from colladaphy.links.poses import Poses, rotate_vectors
 from colladaphy.meaning import physics_rules
 from colladaphy.meaning.body_table import bodies_of
-from colladaphy.meaning.constraint_table import Constraints, constraints_of
+from colladaphy.meaning.constraint_table import Constraints, constraints_of, limits_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.models import parts_of
-from colladaphy.meaning.node_table import nodes_of, odd_transforms
+from colladaphy.meaning.node_table import nodes_of, unclear_nodes
 from colladaphy.meaning.nodes import doubtful
 from colladaphy_schema.rows import Rows
 
@@ -39,7 +39,7 @@ class _Placed:
         nodes = nodes_of(context)
         instances = context.ordinals("instance_rigid_body").astype(np.int64)
         self.rows = {element: row for row, element in enumerate(instances.tolist())}
-        odd = set(odd_transforms(context))
+        odd = unclear_nodes(context)
         targets = [nodes.targets.get(element, -1) for element in instances.tolist()]
         unknown = doubtful(context)
         self.known = np.array(
@@ -87,22 +87,9 @@ class _Placed:
         return poses
 
 
-def _limits(context: Context, name: str) -> tuple[Array, Array]:
-    """Lower and upper limits (n, 3) of all constraints; locked where nothing is said."""
-    rows = context.rows(Rows, "rigid_constraint")
-    common = context.children(rows, "technique_common", Rows)
-    limits = context.children(common, "limits", Rows)
-    groups = context.children(limits, name, Rows)
-    owner = common.owner[limits.owner[groups.owner]]
-    made = []
-    for part in ("min", "max"):
-        values = np.zeros((len(rows), 3))
-        found, elements = context.vectors(groups, part, 3)
-        there = elements >= 0
-        values[owner[there]] = found[there]
-        made.append(values)
-    low, high = made
-    free = ~(low <= high)  # the idiom of an axis without limits, or a fault that is told
+def _freed(low: Array, high: Array) -> tuple[Array, Array]:
+    """The same limits, infinite where they are the idiom of a free axis, or faulty."""
+    free = ~(low <= high)
     return np.where(free, -np.inf, low), np.where(free, np.inf, high)
 
 
@@ -126,7 +113,7 @@ def frames(context: Context) -> Iterator[Hit]:
         sides.append((outer, outer.then(table.frames[side].take(rows))))
     (one, first), (two, second) = sides
     between = first.inverse().then(second)
-    low, high = (column[rows] for column in _limits(context, "linear"))
+    low, high = (column[rows] for column in _freed(*limits_of(context, "linear")))
     gap = np.linalg.norm(
         np.maximum(np.maximum(low - between.positions, between.positions - high), 0.0), axis=1
     )
@@ -146,7 +133,7 @@ def frames(context: Context) -> Iterator[Hit]:
         )
         yield Hit(physics_rules.FRAMES_APART, int(table.attachments[row, 1]), message,
                   (int(table.attachments[row, 0]),))  # fmt: skip
-    low, high = (column[rows] for column in _limits(context, "swing_cone_and_twist"))
+    low, high = (column[rows] for column in _freed(*limits_of(context, "swing_cone_and_twist")))
     for place, excess in _turned(between.orientations, low, high):
         row = int(rows[place])
         if row in told:

@@ -54,7 +54,9 @@ def limits(context: Context) -> Iterator[Hit]:
             rows_of = inner[name].owner
             values[rows_of] = np.where(elements >= 0, found, values[rows_of])
     there = (low_elements >= 0) & (high_elements >= 0)
-    for row in np.flatnonzero(there & (low > high)).tolist():
+    # A parameter in the place of a number is not looked at.
+    stated = ~context.is_within(rows.ordinals, "axis_info")
+    for row in np.flatnonzero(there & (~(low <= high) & (stated | (low > high)))).tolist():
         message = f"The lower limit is {low[row]:g}, the upper one {high[row]:g}."
         yield Hit(
             kinematics_rules.LIMITS, int(low_elements[row]), message, (int(high_elements[row]),)

@@ -12,7 +12,7 @@ from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.scene import degenerate_matrices
 from colladaphy_schema.rows import Rows
 
-__all__ = ["Nodes", "nodes_of", "odd_transforms"]
+__all__ = ["Nodes", "nodes_of", "odd_transforms", "unclear_nodes"]
 
 Array = NDArray[Any]
 
@@ -88,27 +88,42 @@ def odd_transforms(context: Context) -> dict[int, list[int]]:
     return context.shared(_odd_transforms)
 
 
+def unclear_nodes(context: Context) -> set[int]:
+    """Nodes with transforms that scale, skew or mirror, or that are faulty themselves."""
+    return context.shared(_transforms)[1]
+
+
 def _odd_transforms(context: Context) -> dict[int, list[int]]:
+    return context.shared(_transforms)[0]
+
+
+def _transforms(context: Context) -> tuple[dict[int, list[int]], set[int]]:
     found: defaultdict[int, list[int]] = defaultdict(list)
-    for name, width in (("matrix", 16), ("scale", 3), ("skew", 7)):
+    unclear: set[int] = set()
+    widths = {"matrix": 16, "scale": 3, "skew": 7, "translate": 3, "rotate": 4, "lookat": 9}
+    for name, width in widths.items():
         rows = context.rows(FloatRows, name)
         if not len(rows):
             continue
         assert rows.ordinals is not None
         values = rows.value.values.reshape(-1, width)
+        faulty: Array = ~np.isfinite(values).all(axis=1)
+        odd: Array = np.zeros(len(rows), np.bool_)
         if name == "matrix":
             matrices = values.reshape(-1, 4, 4)
             inner = matrices[:, :3, :3]
             product = np.einsum("nij,nik->njk", inner, inner)
-            odd = np.abs(product - np.eye(3)).max(axis=(1, 2)) > 1e-4
-            odd |= np.linalg.det(inner) < 0.0
+            skewed = np.abs(product - np.eye(3)).max(axis=(1, 2)) > 1e-4
+            odd = np.logical_or(skewed, np.linalg.det(inner) < 0.0)
             wrong, flat = degenerate_matrices(matrices)
-            odd &= ~wrong & ~flat
+            faulty = faulty | wrong | flat
         elif name == "scale":
-            odd = (np.abs(values - 1.0) > 2e-6).any(axis=1) & values.all(axis=1)
-        else:
+            odd = np.asarray((np.abs(values - 1.0) > 2e-6).any(axis=1))
+            faulty = faulty | ~values.all(axis=1)
+        elif name == "skew":
             odd = values[:, 0] != 0.0
-        odd &= np.isfinite(values).all(axis=1)
+        odd &= ~faulty
         for element in rows.ordinals[odd].tolist():
             found[int(context.parent[element])].append(element)
-    return dict(found)
+        unclear.update(context.parent[rows.ordinals[odd | faulty]].tolist())
+    return dict(found), unclear

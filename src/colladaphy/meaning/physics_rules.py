@@ -94,6 +94,14 @@ MASS_MISSING = Rule(
     "COLLADA 1.5 §rigid_body; thesis 4.4",
     "A density of 1 is assumed, which is that of air rather than of a solid.",
 )
+MASS_FRAME = Rule(
+    "physics-mass-frame",
+    Severity.WARNING,
+    "The centre of mass of a body is far outside of its shapes.",
+    "Give the mass frame in the document's units of length, relative to the body.",
+    "COLLADA 1.5 §mass_frame",
+    "The body turns about a point that is not near it.",
+)
 SHAPE_SIZE = Rule(
     "physics-shape-size",
     Severity.ERROR,
@@ -287,6 +295,7 @@ SEVERAL_GRAVITIES = Rule(
 )
 
 RULES = (
+    MASS_FRAME,
     MASS_VALUE,
     MASS_ZERO,
     INERTIA_VALUE,

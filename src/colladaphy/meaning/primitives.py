@@ -143,7 +143,7 @@ def _polylist(group: _Group) -> Iterator[Hit]:
         )
         yield Hit(geometry_rules.VCOUNT, element, message, (group.element,))
     few = int(np.count_nonzero(sizes < 3))
-    if few:
+    if few and len(sizes) == group.count:
         yield Hit(
             geometry_rules.FEW_CORNERS,
             element,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import hashlib
 from collections.abc import Iterator
 from typing import Any
 
@@ -9,11 +11,12 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from colladaphy.findings import Finding
+from colladaphy.findings import Finding, Severity
 from colladaphy.links.names import COLLADA, PE
 from colladaphy.meaning import profile_rules
-from colladaphy.meaning.context import Context, FloatRows
+from colladaphy.meaning.context import Context, FloatRows, TextRows
 from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.links import reference_hits
 from colladaphy.meaning.profile_table import profile_of
 from colladaphy_schema.rows import Rows
 
@@ -29,6 +32,15 @@ _PLACES = {
     "joint": ("rigid_constraint",),
     "material": ("physics_material", "physics_scene"),
 }
+_RANGES = {
+    "mass": 0.0,
+    "density": 0.0,
+    "radius": -1.0,
+    "radii": 0.0,
+    "lengths": -1.0,
+    "length": 0.0,
+}
+"""Values that may not be negative; -1 where they may not be zero either."""
 _FINITE = (
     "position", "orientation", "linear_velocity", "angular_velocity", "force", "torque", "gravity",
     "time_step", "radius", "radii", "lengths", "length", "normal", "anchor", "displacement",
@@ -103,6 +115,60 @@ def numbers(context: Context) -> Iterator[Hit]:
                 yield Hit(profile_rules.QUATERNION, element, "The orientation is 0 0 0 0.")
 
 
+def ranges(context: Context) -> Iterator[Hit]:
+    """Values out of their ranges."""
+    profile = profile_of(context)
+    for name, least in _RANGES.items():
+        elements = profile.elements(name)
+        if not len(elements):
+            continue
+        lists = context.at(FloatRows, elements).value
+        low = lists.values < 0.0 if least == 0.0 else lists.values <= 0.0
+        for row in np.unique(
+            np.searchsorted(lists.offsets, np.flatnonzero(low), side="right") - 1
+        ).tolist():
+            shown = " ".join(f"{value:g}" for value in lists[row].tolist())
+            yield Hit(profile_rules.VALUE, int(elements[row]), f"<pe:{name}> is {shown}.")
+    tensors, _, values = profile.values("inertia", 9, "body", "shape", "union")
+    for element, value in zip(tensors.tolist(), values, strict=True):
+        size = np.abs(value).max()
+        if not 0.0 < size < np.inf:
+            continue
+        matrix = (value / size).reshape(3, 3)
+        one, two, three = np.linalg.eigvalsh((matrix + matrix.T) / 2.0)
+        if one < -1e-9 * abs(three) or one + two < three * (1.0 - 1e-3):
+            shown = " ".join(f"{moment * size:g}" for moment in (one, two, three))
+            message = f"The principal moments of inertia are {shown}."
+            yield Hit(profile_rules.VALUE, element, message)
+    for name in ("linear_limits", "angular_limits"):
+        lower, around, low_values = profile.values("min", 3, name)
+        _, _, high_values = profile.values("max", 3, name)
+        for row in np.flatnonzero((low_values > high_values).any(axis=1)).tolist():
+            shown = " ".join(f"{value:g}" for value in low_values[row].tolist())
+            message = f"The lower limits are {shown}, above the upper ones."
+            yield Hit(profile_rules.VALUE, int(lower[row]), message, (int(around[row]),))
+
+
+def links(context: Context) -> Iterator[Hit]:
+    """Pairs of materials that are not there, and states that are broken."""
+    profile = profile_of(context)
+    for element in profile.elements("pair").tolist():
+        for key in ("first", "second"):
+            text = context.columns.attribute_of(element, key) or ""
+            yield from reference_hits(
+                context, element, key, text, ("physics_material",), severity=Severity.ERROR
+            )
+    for element in profile.elements("engine_state").tolist():
+        text = context.at(TextRows, np.array([element])).value[0]
+        wanted = (context.columns.attribute_of(element, "sha256") or "").lower()
+        try:
+            data = base64.b64decode("".join(text.split()), validate=True)
+        except ValueError:
+            data = b""
+        if hashlib.sha256(data).hexdigest() != wanted:
+            yield Hit(profile_rules.ENGINE_STATE, element, "The checksum is of another state.")
+
+
 def ids(context: Context) -> Iterator[Hit]:
     """System ids that are there twice."""
     profile = profile_of(context)
@@ -167,4 +233,4 @@ def profile_codes(context: Context) -> tuple[int, ...]:
     return context.columns.codes_of(f"{{{PE}}}body")
 
 
-CHECKS = (places, namespaces, numbers, ids, unions)
+CHECKS = (places, namespaces, numbers, ranges, links, ids, unions)

@@ -75,7 +75,27 @@ OLD_VALUE = Rule(
     "common value, as the newer one.",
 )
 
+VALUE = Rule(
+    "profile-value",
+    Severity.ERROR,
+    "A value of the pe profile is out of its range.",
+    "Masses and densities are not negative, sizes are positive, an inertia is that of a body, and "
+    "no lower limit is above the upper one.",
+    "docs/pe-profile.md",
+    "No World can hold it.",
+)
+ENGINE_STATE = Rule(
+    "profile-engine-state",
+    Severity.WARNING,
+    "The state of an engine does not fit its checksum.",
+    "Write the checkpoint again.",
+    "thesis 6.1",
+    "It is left out: the simulation goes on from the bodies' state alone, not exactly as it would.",
+)
+
 RULES = (
+    VALUE,
+    ENGINE_STATE,
     PLACE,
     TECHNIQUE,
     NAMESPACE,

@@ -143,13 +143,19 @@ class Shapes:
         source = np.where(own[rows], rows, bodies.body[rows])
         known = source >= 0
         masses = np.where(np.isnan(masses), np.where(known, sums[source], np.nan), masses)
-        frames = self._frames()
+        frames = self.frames()
         far = reach[source] + np.maximum(frames[rows], frames[source])
         most = np.where(known, masses * far**2, np.nan)
         least = np.where(known, 0.2 * masses * inner[source] ** 2, np.nan)
         return most, least
 
-    def _frames(self) -> Array:
+    def reaches(self) -> Array:
+        """(n,) how far the shapes of bodies, or instances, reach at most; NaN where unknown."""
+        reach = np.zeros(len(bodies_of(self.context).elements))
+        np.maximum.at(reach, self.holders, self.reach + self.shift)
+        return reach
+
+    def frames(self) -> Array:
         """(n,) how far the mass frames of bodies are moved."""
         context, bodies = self.context, bodies_of(self.context)
         made = np.zeros(len(bodies.elements))

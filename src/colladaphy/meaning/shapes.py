@@ -21,6 +21,7 @@ __all__ = ["CHECKS"]
 Array = NDArray[Any]
 
 
+_FAR = 10.0
 _SAME = 0.02
 """How far a mass may be from density times volume."""
 
@@ -78,6 +79,26 @@ def masses(context: Context) -> Iterator[Hit]:
         )
         yield Hit(physics_rules.MASS_DENSITY, int(shapes.density_elements[row]), message,
                   (int(shapes.mass_elements[row]),))  # fmt: skip
+
+
+def centres(context: Context) -> Iterator[Hit]:
+    """Centres of mass that are far away from the shapes."""
+    bodies, shapes = bodies_of(context), shapes_of(context)
+    frames = shapes.frames()
+    if not frames.any():
+        return
+    reach = shapes.reaches()
+    body = np.maximum(bodies.body, 0)
+    reach = np.where(reach > 0.0, reach, reach[body])
+    far = bodies.moves & (frames > _FAR * reach) & (reach > 0.0) & np.isfinite(frames)
+    at = context.first_children("technique_common")
+    inner = context.first_children("mass_frame")
+    for row in np.flatnonzero(far).tolist():
+        element = int(bodies.elements[row])
+        message = (
+            f"The mass frame is moved by {frames[row]:g}, but the shapes reach to {reach[row]:g}."
+        )
+        yield Hit(physics_rules.MASS_FRAME, inner.get(at.get(element, -1), element), message)
 
 
 def totals(context: Context) -> Iterator[Hit]:
@@ -157,4 +178,4 @@ def _profiled(context: Context) -> Array:
     return made
 
 
-CHECKS = (sizes, masses, totals)
+CHECKS = (sizes, masses, centres, totals)

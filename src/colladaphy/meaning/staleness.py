@@ -17,7 +17,7 @@ from colladaphy.links.poses import DEGREE, Poses, quaternion_product, unit_quate
 from colladaphy.links.steps import Steps, poses_of_steps
 from colladaphy.meaning import profile_rules
 from colladaphy.meaning.body_table import bodies_of
-from colladaphy.meaning.constraint_table import AttachmentRows
+from colladaphy.meaning.constraint_table import AttachmentRows, limits_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.node_table import nodes_of, odd_transforms
@@ -45,8 +45,11 @@ _SIZES = (
 def _same(one: Array, other: Array) -> bool:
     if np.isnan(one).any() or np.isnan(other).any():
         return True  # told elsewhere
+    # Of the largest numbers the common profile says only that they are large.
+    large = (np.minimum(np.abs(one), np.abs(other)) > 1e300) & (np.sign(one) == np.sign(other))
+    one, other = np.where(large, 0.0, one), np.where(large, 0.0, other)
     scale = np.maximum(np.abs(one), np.abs(other)).max(initial=0.0)
-    close = np.abs(one - other) <= _DIGITS * scale
+    close = (np.abs(one - other) <= _DIGITS * scale) & np.isfinite(one) & np.isfinite(other)
     return bool(np.all(close | (one == other)))
 
 
@@ -67,7 +70,7 @@ def masses(context: Context) -> Iterator[Hit]:
         if row < 0 or bodies.mass_elements[row] < 0:
             continue
         stated = bodies.masses[row : row + 1]
-        if not _same(stated, value):
+        if value[0] >= 0.0 and not _same(stated, value):
             yield _hit("mass", element, stated, value, int(bodies.mass_elements[row]))
 
 
@@ -87,7 +90,9 @@ def sizes(context: Context) -> Iterator[Hit]:
         at = dict(zip(shapes.elements[rows.owner].tolist(), range(len(rows)), strict=True))
         for place, shape in enumerate(context.parent[around].tolist()):
             row = at.get(pairs.get(shape, -1), -1)
-            if row >= 0 and not _same(stated[row] * factor, values[place]):
+            if row < 0 or not (values[place] > 0.0).all():
+                continue
+            if not _same(stated[row] * factor, values[place]):
                 yield _hit(f"{name} of the {kind}", int(kept[place]), stated[row] * factor,
                            values[place], int(elements[row]))  # fmt: skip
 
@@ -142,14 +147,16 @@ def motions(context: Context) -> Iterator[Hit]:
     poses, _ = context.placement.poses(
         np.array([table.row_of(0, node) for node in targets.tolist()], np.int64)
     )
-    inner, single = _inner_poses(context, holders.tolist())
+    inner, single, plane = _inner_poses(context, holders.tolist())
     whole = poses.then(inner)
     mine, at = _matched(elements, turned)
     units = unit_quaternions(orientations[mine])
     stated = whole.orientations[at]
     apart = np.minimum(np.abs(units - stated).max(axis=1, initial=0.0),
                        np.abs(units + stated).max(axis=1, initial=0.0))  # fmt: skip
-    for row in np.flatnonzero((apart > _TURN) & orientations[mine].any(axis=1)).tolist():
+    for row in np.flatnonzero(
+        (apart > _TURN) & orientations[mine].any(axis=1) & ~plane[at]
+    ).tolist():
         yield _hit("orientation", int(turns[mine[row]]), stated[row], orientations[mine[row]],
                    int(targets[at[row]]))  # fmt: skip
     mine, at = _matched(elements, placed)
@@ -169,8 +176,8 @@ def _matched(elements: Array, wanted: Array) -> tuple[Array, Array]:
     return mine, at[mine]
 
 
-def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, Array]:
-    """The frames of Worlds' bodies in their rigid_bodies, and whether the place is known too.
+def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, Array, Array]:
+    """The frames of Worlds' bodies in their rigid_bodies, whether the place is known, and planes.
 
     A body of one shape has the frame of that shape, one of several has its own.
     """
@@ -189,7 +196,7 @@ def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, Array]:
     frames = set(context.ancestor(context.ordinals("mass_frame"), "rigid_body",
                                   "instance_rigid_body").tolist())  # fmt: skip
     made = Poses.none(len(instances))
-    known = np.zeros(len(instances), np.bool_)
+    known, flat = np.zeros(len(instances), np.bool_), np.zeros(len(instances), np.bool_)
     for at, instance in enumerate(instances):
         row = bodies.row(instance)
         begin, end = np.searchsorted(holders, (row, row + 1))
@@ -203,6 +210,7 @@ def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, Array]:
             continue
         shape = int(order[begin])
         if planes[shape]:
+            flat[at] = True  # turned as its normal says
             continue
         pose = local.take(np.array([shape]))
         if rods[shape]:
@@ -210,7 +218,7 @@ def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, Array]:
             pose = Poses.of(1, pose.positions, turn, moved=pose.moved)
         made.put(np.array([at]), pose if not framed else Poses.none(1))
         known[at] = not framed
-    return made, known
+    return made, known, flat
 
 
 def _velocities(context: Context, profile: Profile) -> Iterator[Hit]:
@@ -228,9 +236,30 @@ def _velocities(context: Context, profile: Profile) -> Iterator[Hit]:
         one, two = stated[at] * factor, values[mine]
         scale = np.maximum(np.abs(one), np.abs(two)).max(axis=1, initial=0.0)
         apart = np.abs(one - two).max(axis=1, initial=0.0) > _DIGITS * scale
+        apart &= scale < 1e300  # of the largest, the common profile says only that they are large
         for row in np.flatnonzero(apart & (places[at] >= 0)).tolist():
             yield _hit(name.replace("_", " "), int(kept[mine[row]]), one[row], two[row],
                        int(places[at[row]]))  # fmt: skip
+
+
+def limits(context: Context) -> Iterator[Hit]:
+    """Limits of joints."""
+    profile = profile_of(context)
+    constraints = context.rows(Rows, "rigid_constraint")
+    assert constraints.ordinals is not None
+    at = {element: row for row, element in enumerate(constraints.ordinals.tolist())}
+    for name, other, factor in (
+        ("linear_limits", "linear", 1.0), ("angular_limits", "swing_cone_and_twist", DEGREE),
+    ):  # fmt: skip
+        for part, stated in zip(("min", "max"), limits_of(context, other), strict=True):
+            kept, _, values = profile.values(part, 3, name)
+            for element, holder, value in zip(
+                kept.tolist(), profile.holders(kept).tolist(), values, strict=True
+            ):
+                row = at.get(holder, -1)
+                if row >= 0 and not _same(stated[row] * factor, value):
+                    what = f"{part} of the {name.replace('_', ' ')}"
+                    yield _hit(what, element, stated[row] * factor, value, holder)
 
 
 def worlds(context: Context) -> Iterator[Hit]:
@@ -254,4 +283,4 @@ def worlds(context: Context) -> Iterator[Hit]:
                 yield _hit(name.replace("_", " "), element, stated[row], value, int(places[row]))
 
 
-CHECKS = (masses, sizes, motions, worlds)
+CHECKS = (masses, sizes, motions, limits, worlds)
