@@ -227,3 +227,104 @@ def test_nodes_that_stand_elsewhere_than_the_model_count_and_that_is_said() -> N
     outer, _ = frames_of(world, 1)
     assert np.allclose(outer[:3, 3], (0, 0, 2), atol=1e-12)
     assert "kinematics-joint-frames" in [finding.code for finding in read.report.findings]
+
+
+def test_joints_of_a_library_are_instanced() -> None:
+    data = document(Arm([Segment(limits=(-10.0, 20.0))]))
+    joint = data[data.index(b"<joint ") : data.index(b"</joint>") + len(b"</joint>")]
+    library = (
+        b"<library_joints>" + joint.replace(b'sid="j0"', b'id="shared"') + b"</library_joints>"
+    )
+    moved = data.replace(joint, b'<instance_joint sid="j0" name="mine" url="#shared"/>').replace(
+        b"<library_kinematics_models>", library + b"<library_kinematics_models>"
+    )
+    read = colladaphy.read(moved)
+    (made,) = read.load().joints
+    assert made.name == "mine"
+    assert np.allclose(np.degrees([made.angular_min[2], made.angular_max[2]]), [-10, 20])
+    assert [f.code for f in read.report if f.code.startswith("kinematics")] == []
+
+
+def _closing(data: bytes, start: bytes, end: bytes) -> bytes:
+    """The document with a joint between the base and the last link."""
+    joint = b'<joint sid="loop"><revolute sid="axis0"><axis>0 1 0</axis></revolute></joint>'
+    data = data.replace(b'<link sid="base"', joint + b'<link sid="base"')
+    last = b'<link sid="l1" name="link 1">'
+    data = data.replace(last, last + end)
+    head, mark, tail = data.rpartition(b"</link>")
+    return head + start + mark + tail
+
+
+def test_attachments_at_both_ends_close_a_loop() -> None:
+    start = b'<attachment_start joint="km/loop"><translate>0 0 2.5</translate></attachment_start>'
+    end = b'<attachment_end joint="km/loop"><translate>0 0 0.5</translate></attachment_end>'
+    read = colladaphy.read(_closing(document(Arm([Segment(), Segment()])), start, end))
+    world = read.load()
+    assert [joint.name for joint in world.joints] == ["joint 0", "joint 1", "loop"]
+    outer, inner = frames_of(world, 2)
+    assert np.allclose(outer[:3, 3], (0, 0, 2.5), atol=1e-12)
+    assert np.allclose(inner, outer, atol=1e-12)
+    names = {body.name for body in (world.joints[2].body1, world.joints[2].body2) if body}
+    assert names == {"base", "link 1"}
+    assert [f.code for f in read.report if f.code.startswith("kinematics")] == []
+
+
+def test_what_is_attached_at_one_end_only_is_said() -> None:
+    start = b'<attachment_start joint="km/loop"><translate>0 0 0</translate></attachment_start>'
+    read = colladaphy.read(_closing(document(Arm([Segment(), Segment()])), start, b""))
+    assert len(read.load().joints) == 2
+    assert [f.code for f in read.report if f.code.startswith("kin")] == ["kinematics-joint-skipped"]
+
+
+def test_a_path_that_leads_nowhere_is_said_with_its_line() -> None:
+    data = document(Arm([Segment()])).replace(b'attachment_full joint="km/j0"',
+                                              b'attachment_full joint="km/j9"')  # fmt: skip
+    read = colladaphy.read(data)
+    assert len(read.load().joints) == 0
+    (finding,) = [f for f in read.report if f.code == "kinematics-reference"]
+    assert finding.line
+    assert "km/j9" in finding.message
+
+
+def test_a_model_that_is_instanced_twice_makes_two_robots() -> None:
+    one = document(Arm([Segment(value=10.0)]))
+    # The second stands beside, with nodes, bodies and parameters of its own.
+    text = one.decode()
+    base = text[text.index('<node id="base"') : text.index("</visual_scene>")]
+    other = base.replace(
+        'id="base" sid="base">', 'id="base2" sid="base2"><translate>9 0 0</translate>'
+    )
+    other = other.replace('"n0"', '"m0"').replace("1.0 10.0</rotate>", "1.0 -20.0</rotate>")
+    text = text.replace("</visual_scene>", other + "</visual_scene>")
+    system = text[text.index("<articulated_system ") : text.index("</library_articulated_systems>")]
+    twin = system.replace('id="robot"', 'id="robot2"').replace("robot/", "robot2/")
+    text = text.replace("</library_articulated_systems>", twin + "</library_articulated_systems>")
+    placed = text[text.index("<instance_articulated_system") : text.index("</kinematics_scene>")]
+    twin = placed.replace('"robot_inst"', '"robot2_inst"').replace("#robot", "#robot2")
+    twin = twin.replace('symbol="s_', 'symbol="t_').replace("robot/", "robot2/")
+    text = text.replace("</kinematics_scene>", twin + "</kinematics_scene>")
+    binds = text[text.index("<bind_kinematics_model") : text.index("</instance_kinematics_scene>")]
+    twin = binds.replace('node="base"', 'node="base2"').replace("<param>s_", "<param>t_")
+    twin = twin.replace("base/n0/value", "base2/m0/value")
+    models = [binds[: binds.index("<bind_joint_axis")], twin[: twin.index("<bind_joint_axis")]]
+    axes = [binds[binds.index("<bind_joint_axis") :], twin[twin.index("<bind_joint_axis") :]]
+    text = text.replace(binds, "".join(models + axes))
+    placed = text[text.index("<instance_physics_model") : text.index("</instance_physics_model>")]
+    twin = placed.replace('"#base"', '"#base2"').replace('"#n0"', '"#m0"')
+    end = "</instance_physics_model>"
+    text = text.replace(end, f"{end}{twin}{end}", 1)
+    read = colladaphy.read(text.encode())
+    world = read.load()
+    assert [f.code for f in read.report if f.code.startswith("kinematics")] == []
+    assert len(world.joints) == 2
+    places, angles = [], []
+    for number, joint in enumerate(world.joints):
+        assert joint.body1 is not None
+        assert joint.body2 is not None
+        outer, inner = frames_of(world, number)
+        assert np.allclose(outer[:3, 3], joint.body1.position + np.array((0, 0, 1)), atol=1e-12)
+        apart = np.linalg.inv(outer) @ inner
+        places.append(outer[0, 3])
+        angles.append(math.degrees(math.atan2(apart[1, 0], apart[0, 0])))
+    assert np.allclose(places, [0, 9], atol=1e-12)
+    assert np.allclose(angles, [10, -20], atol=1e-9)
