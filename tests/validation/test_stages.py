@@ -187,6 +187,25 @@ def test_references_to_other_files(tmp_path: Path) -> None:
     assert finding.code == "io-reference-refused" and finding.line
 
 
+def test_documents_that_references_lead_to_must_be_loadable(tmp_path: Path) -> None:
+    path, other = tmp_path / "main.dae", tmp_path / "other.dae"
+    path.write_bytes(VALID.replace(b'url="#model"', b'url="other.dae#model"'))
+    other.write_bytes(VALID)
+    assert [str(finding) for finding in validate(path)] == []
+    other.write_bytes(
+        VALID.replace(b"<technique_common/>\n      </rigid_con", b"<wrong/></rigid_con")
+    )
+    (finding,) = validate(path).findings
+    assert (finding.code, finding.file) == ("link-missing", str(path))
+    assert "other.dae" in finding.message and finding.line == 17
+    other.write_bytes(VALID.replace(b'rigid_body="model/ball"', b'rigid_body="model/none"'))
+    (finding,) = validate(path).findings
+    assert (finding.code, finding.file, finding.line) == ("link-missing", str(other), 10)
+    # A value that keeps nothing from being loaded is the other document's own affair.
+    other.write_bytes(VALID.replace(b"<density>1<", b"<density>0<"))
+    assert validate(path).findings == []
+
+
 def test_only_unreadable_input_raises(tmp_path: Path) -> None:
     for source in (tmp_path, tmp_path / "none.dae", io.StringIO("text")):
         with pytest.raises(InputError):

@@ -26,6 +26,8 @@ def files(context: Context) -> Iterator[Hit]:
     if not len(rows):
         return
     assert rows.ordinals is not None
+    # Where names are relative to another place, files are not looked for.
+    exists = None if len(context.columns.with_attribute("xml:base")[0]) else context.exists
     mine = rows.ordinals[np.flatnonzero(context.is_within(rows.ordinals, "init_from"))]
     for element, text in zip(mine.tolist(), context.at(TextRows, mine).value, strict=True):
         name = text.strip()
@@ -33,8 +35,8 @@ def files(context: Context) -> Iterator[Hit]:
             yield Hit(link_rules.IMAGE_EMPTY, element, "The name of the image's file is empty.")
         elif _WINDOWS.match(name) or _LOCAL.match(name):
             yield Hit(link_rules.IMAGE_ABSOLUTE, element, f"The image is {name!r}.")
-        elif context.exists is not None and ":" not in name.split("/")[0]:
-            why = context.exists(name)
+        elif exists is not None and ":" not in name.split("/")[0]:
+            why = exists(name)
             if why == "outside":
                 message = f"The reference {name!r} leads out of the document's folder."
                 yield Hit(REFERENCE_REFUSED, element, message, severity=Severity.WARNING)

@@ -70,8 +70,19 @@ def validate(source: Source, *, limits: Limits | None = None) -> Report:
 def _check_meaning(report: Report, loaded: Loaded, tree: etree._ElementTree | None) -> None:
     from colladaphy.meaning import check
 
+    family: dict[str, Resource] = {}
     with unchanging():
-        report.extend(check(_resource(loaded, tree, {}), availability(loaded)))
+        report.extend(check(_resource(loaded, tree, family), availability(loaded)))
+        seen = {loaded.file}
+        while others := [other for other in family.values() if other.file not in seen]:
+            for other in others:
+                seen.add(other.file)
+                # Of the documents that it leads to, only what keeps it from being loaded.
+                report.extend(
+                    finding
+                    for finding in check(other)
+                    if finding.severity is Severity.ERROR and finding.stage in ("link", "physics")
+                )
 
 
 def _locate(report: Report, data: bytes) -> None:
