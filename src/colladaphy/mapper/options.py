@@ -31,6 +31,8 @@ class WriteOptions:
     """Names the physics model that a body belongs to; without it there is one model."""
     materials: Literal["used", "all"] = "used"
     """Which materials are written (thesis 5.4: those in use)."""
+    kinematics: bool = False
+    """Write joints as kinematics too, for readers that look for robots, such as OpenRAVE."""
     created: str = "1970-01-01T00:00:00Z"
     """Time of creation (xs:dateTime) in the asset; fixed, so that equal Worlds give equal files."""
     title: str | None = None

@@ -20,6 +20,7 @@ from colladaphy.mapper.storing.joints import (
     constraint_instances,
     constraints_of,
 )
+from colladaphy.mapper.storing.kinematics import add_kinematics
 from colladaphy.mapper.storing.leaves import Leaves
 from colladaphy.mapper.storing.materials import materials_of, pairs_of
 from colladaphy.mapper.storing.meshes import geometries_of
@@ -88,6 +89,8 @@ def columns_of(world: World, options: WriteOptions | None = None) -> document.Co
     root.library_physics_scenes = physics.LibraryPhysicsScenesTypeRows(1)
     root.library_physics_scenes.physics_scene = scenes
     _add_scene(root, world)
+    if options.kinematics:
+        add_kinematics(root, world)
     return root
 
 
