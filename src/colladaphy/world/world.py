@@ -40,6 +40,8 @@ class World:
     """Rigid bodies, joints and materials after the pe engine (thesis 2).
 
     Nothing is converted: lengths are in the World's own unit, masses in kg, angles in radians.
+    Densities are in kg per cubic unit, so that pe's five materials, which are in SI, fit a World in
+    metres: in another unit give masses, or materials of your own.
     What cannot be is refused with a WorldError.
 
     Columns of the top-level bodies have one row a body, aligned with `bodies`. Every column is a
