@@ -83,6 +83,11 @@ class _Frames:
         made: list[Stand | None] = []
         for attachment, joint, ends in zip(model.attachments, self._joints, bound, strict=True):
             made.append(None if joint is None else self._stand(attachment, joint, ends))
+            if joint is None and attachment.after is None:
+                # A joint that is not there moves nothing.
+                own = model.links[attachment.inner].pose
+                outer = self._links[attachment.outer]
+                self._links[attachment.inner] = outer.then(attachment.before).then(own)
         return made
 
     def _root(self, root: int, bound: list[_Ends | None]) -> Poses:
