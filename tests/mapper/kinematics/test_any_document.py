@@ -36,8 +36,10 @@ def test_documents_that_cover_the_schema(data: bytes) -> None:
 
 
 _DATA = document(Arm([Segment(limits=(-10.0, 20.0)), Segment(kind="prismatic")]))
-_REFERENCES = sorted({*re.findall(rb'(?:ref|axis|joint|url|node|target|symbol|sid)="([^"]+)"', _DATA),
-                      *re.findall(rb"<(?:SIDREF|param)>([^<]+)<", _DATA)})  # fmt: skip
+_NAMES = rb'(?:ref|axis|joint|url|node|target|symbol|sid)="([^"]+)"'
+_REFERENCES = sorted(
+    {*re.findall(_NAMES, _DATA), *re.findall(rb"<(?:SIDREF|param)>([^<]+)<", _DATA)}
+)
 
 
 @settings(max_examples=150, deadline=None)
