@@ -25,7 +25,9 @@ def page() -> str:
     """The page's text, one table a stage."""
     parts = [HEAD]
     for stage, rules in groupby(all_rules(), key=lambda rule: rule.stage):
-        parts.append(f"\n## {stage}\n\n| code | severity | what it means | why | what to do | source |")
+        parts.append(
+            f"\n## {stage}\n\n| code | severity | what it means | why | what to do | source |"
+        )
         parts.append("|---|---|---|---|---|---|")
         parts.extend(map(row, rules))
     return "\n".join(parts) + "\n"
