@@ -127,6 +127,14 @@ def test_what_validate_calls_invalid_is_refused_and_nothing_is_written(value: st
     assert target.getvalue() == b""
 
 
+def test_what_is_not_to_be_checked_is_written() -> None:
+    document = colladaphy.Document(_built())
+    document.find("#model/ball").technique_common.mass.value = -1.0
+    target = io.BytesIO()
+    document.write(target, check=False)
+    assert not colladaphy.validate(target.getvalue()).valid
+
+
 def test_negative_mass_is_refused() -> None:
     document = colladaphy.Document(_built())
     document.find("#model/ball").technique_common.mass.value = -1.0

@@ -28,9 +28,8 @@ TAIL = b"<!-- after --><?after the root?><!-- last -->"
 
 def written(document: Document) -> bytes:
     """What is written of a document, whatever it means."""
-    document = Document(document.tree, tolerant=True)
     stream = io.BytesIO()
-    document.write(stream)
+    document.write(stream, check=False)
     return stream.getvalue()
 
 

@@ -268,13 +268,16 @@ class Document(Choosable):
             message = f"The World has unit and up axis {given}, the document {mine}."
             raise DocumentError(rules.UNIT.at(message=message, file=self.file))
 
-    def write(self, target: Output) -> None:
+    def write(self, target: Output, *, check: bool = True) -> None:
         """Write the document, checked and atomically, to a .dae, a .zae or a binary file object.
 
         Raises SchemaError where it is not valid, DocumentError where `validate` finds that what it
-        means is wrong (unless it was read with repair), and OutputError.
+        means is wrong, and OutputError. Documents read with repair are written with what could not
+        be mended; without `check`, others are too.
         """
-        write_document(self._current(), target, self.archive, self.member)
+        write_document(
+            self._current(), target, self.archive, self.member, check and not self.tolerant
+        )
 
     def __repr__(self) -> str:
         scenes = self._resource.columns.rows(PhysicsSceneTypeRows, c("physics_scene"))

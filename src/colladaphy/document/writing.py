@@ -36,15 +36,14 @@ def document_bytes(resource: Resource) -> bytes:
 
 
 def write_document(
-    resource: Resource, target: Output, archive: Archive | None, member: str | None
+    resource: Resource, target: Output, archive: Archive | None, member: str | None, checked: bool
 ) -> None:
     """Write a document; one that came from an archive keeps the other files of it.
 
-    DocumentError where its meaning is wrong; of one read with repair, what could not be mended is
-    written all the same.
+    If it is to be `checked`, DocumentError where its meaning is wrong.
     """
     data = document_bytes(resource)
-    if not resource.tolerant:
+    if checked:
         with unchanging():
             wrong = [each for each in check(resource) if each.severity is Severity.ERROR]
         if wrong:

@@ -27,7 +27,7 @@ class SceneDocument(Protocol):
     def update(self, world: World) -> None:
         """Write the World back into it."""
 
-    def write(self, target: Any) -> None:
+    def write(self, target: Any, *, check: bool = True) -> None:
         """Write it to a file."""
 
 
@@ -45,4 +45,4 @@ def save_scene(
         write(world, target)
         return
     document.update(world)
-    document.write(target)
+    document.write(target, check=False)

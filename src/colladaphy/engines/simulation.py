@@ -132,7 +132,13 @@ class Simulation:
         if state is not None and engine in ("auto", state.engine):
             engine = _maker(state)
         run = cls(
-            world, engine, dt, seed, forces=forces, on_contact=on_contact, on_finding=on_finding,
+            world,
+            engine,
+            dt,
+            seed,
+            forces=forces,
+            on_contact=on_contact,
+            on_finding=on_finding,
             document=found.document if document is None else document,
         )
         run.report.findings[:0] = passed

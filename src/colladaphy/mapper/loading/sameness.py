@@ -97,9 +97,7 @@ class Sameness:
         return self._decided(rows, lambda tolerance, mine: _same(
             one[mine], other[mine], tolerance, scale[mine]).all(axis=1))  # fmt: skip
 
-    def turn(
-        self, rows: Array, one: Array, other: Array, steps: Array | int = 0
-    ) -> Array:
+    def turn(self, rows: Array, one: Array, other: Array, steps: Array | int = 0) -> Array:
         """Which quaternions (n, 4) turn the same way.
 
         `steps` (n,) tells of how many turns they were composed, each of which was rounded.
