@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from colladaphy.links.poses import DEGREE, Poses
 from colladaphy.links.steps import poses_of
-from colladaphy.mapper.loading.profile import first_of
+from colladaphy.mapper.loading.profile import countable, first_of
 
 __all__ = ["SIDES", "Constraints", "read_constraints"]
 
@@ -126,8 +126,10 @@ def _profile(constraints: Any, count: int) -> dict[str, Any]:
     kept = np.zeros(count, np.bool_)
     kept[owner] = True
     uids, sids = np.zeros(count, np.int64), np.full(count, -1, np.int64)
-    uids[owner] = np.where(joints.uid.present, joints.uid.values, 0)
-    sids[owner] = np.where(joints.sid.present, joints.sid.values, -1)
+    uid, has_uid = countable(joints.uid, len(joints))
+    sid, has_sid = countable(joints.sid, len(joints))
+    uids[owner] = np.where(has_uid, uid, 0)
+    sids[owner] = np.where(has_sid, sid, -1)
     names: list[str | None] = [None] * count
     for row, name in zip(owner.tolist(), joints.name, strict=True):
         names[row] = name

@@ -13,7 +13,15 @@ from colladaphy.links.poses import Poses
 from colladaphy.world.kinds import Kind
 from colladaphy_schema.pe_columns import ShapeTypeRows
 
-__all__ = ["Motions", "Parts", "ProfileBodies", "first_of", "read_motions", "read_profiles"]
+__all__ = [
+    "Motions",
+    "Parts",
+    "ProfileBodies",
+    "countable",
+    "first_of",
+    "read_motions",
+    "read_profiles",
+]
 
 Array = NDArray[Any]
 
@@ -223,10 +231,22 @@ def _masked(column: Any, count: int, shape: tuple[int, ...], default: Any) -> tu
     return column.values, column.present
 
 
+def countable(column: Any, count: int) -> tuple[Array, Array]:
+    """The ids (n,) of a column, and where they are; the schema's integers may be any, ours not.
+
+    An id of more than 64 bits is as if not there: the World gives another one.
+    """
+    values, present = _masked(column, count, (), 0)
+    if values.dtype == object:
+        fits = np.array([-(2**63) <= value < 2**63 for value in values.tolist()], np.bool_)
+        values, present = np.where(fits, values, 0).astype(np.int64), present & fits
+    return values, present
+
+
 def _parts(rows: Any, *, shaped: bool) -> Parts:
     count = len(rows)
-    uid, has_uid = _masked(rows.uid, count, (), 0)
-    sid, has_sid = _masked(rows.sid, count, (), 0)
+    uid, has_uid = countable(rows.uid, count)
+    sid, has_sid = countable(rows.sid, count)
     fixed, has_fixed = _masked(rows.fixed, count, (), False)
     hollow, has_hollow = _masked(rows.hollow, count, (), False)
     mass, has_mass = _masked(rows.mass, count, (), np.nan)
