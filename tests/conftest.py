@@ -17,7 +17,10 @@ OFFICIAL_SCHEMA = Path("/usr/lib/opencollada/collada_schema_1_5.xsd")
 _slow_is_fine = [HealthCheck.too_slow, HealthCheck.data_too_large]
 settings.register_profile("dev", deadline=None, suppress_health_check=_slow_is_fine)
 # Continuous integration repeats the same examples, so that a red run means a change for the worse.
-settings.register_profile("ci", settings.get_profile("dev"), derandomize=True, print_blob=True)
+# There are thousands of tests, so that each takes fewer; "nightly" takes many.
+settings.register_profile(
+    "ci", settings.get_profile("dev"), max_examples=25, derandomize=True, print_blob=True
+)
 settings.register_profile(
     "quick",
     settings.get_profile("dev"),
