@@ -34,7 +34,7 @@ def stored(world: World) -> Document:
 
 def reread(document: Document) -> Document:
     file = io.BytesIO()
-    document.write(file)
+    document.write(file, check=False)
     return colladaphy.read(file.getvalue())
 
 
