@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from colladaphy.columns import texts as texts_module
 from colladaphy.columns.reading import Document
-from colladaphy.columns.texts import Ranges, are_same, booleans_of, floats_of, integers_of
+from colladaphy.columns.texts import Ranges, booleans_of, floats_of, integers_of
 from colladaphy.columns.words import Words
 from colladaphy_schema.core_columns import FloatArrayTypeRows, TargetableFloat3TypeRows
 from colladaphy_schema.physics_columns import InstanceRigidBodyTypeRows, RigidBodyTypeRows
@@ -106,12 +106,6 @@ def test_truth_values(more: str) -> None:
     assert found.tolist() == [True, False, True, False, more.strip() in ("true", "1")]
 
 
-@given(st.lists(st.tuples(st.text("ab", max_size=20), st.text("ab", max_size=20)), min_size=1))
-def test_texts_are_compared_as_bytes(pairs: list[tuple[str, str]]) -> None:
-    found = are_same(ranges([one for one, _ in pairs]), ranges([two for _, two in pairs]))
-    assert found.tolist() == [one == two for one, two in pairs]
-
-
 def test_an_empty_element_has_the_default_of_its_place() -> None:
     for text in ("", "<!-- nothing -->"):
         found = document(f"<a><g>{text}</g><g>1 2 3</g></a>").rows(
@@ -166,18 +160,12 @@ BODIES = """
 
 def test_references_without_strings() -> None:
     found = document(BODIES)
-    bodies = found.rows(RigidBodyTypeRows, C + "rigid_body")
     instances = found.rows(InstanceRigidBodyTypeRows, C + "instance_rigid_body")
-    assert found.same_texts(bodies, "sid", instances, "body").tolist() == [
-        True, True, True, False, False,
-    ]  # fmt: skip
     codes, texts = found.factorized(instances, "target")
     assert [texts[code] if code >= 0 else None for code in codes.tolist()] == [
         "#1", "#1", "#1", None, "#2",
     ]  # fmt: skip
     assert sorted(texts) == ["#1", "#2"]
-    with pytest.raises(ValueError, match="5 rows and 1 others"):
-        found.same_texts(bodies, "sid", instances.select(np.array([0])), "body")
 
 
 @given(st.lists(st.sampled_from(["#a", "#b" * 9, "#c" * 60, "é"]) | st.text("xyz", max_size=3)))

@@ -15,7 +15,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.engines.scenes import PLANAR, SCENES
 
-import colladaphy
 from colladaphy.engines import ENGINES, Engine, Simulation, create_engine, digest
 from colladaphy.world import World, compare
 
@@ -104,9 +103,7 @@ def test_across_processes_and_hash_seeds(engine: Engine, scene: str, tmp_path: P
         path.name for path in (tmp_path / "straight").iterdir()
     )
     for path in (tmp_path / "straight").iterdir():
-        other = tmp_path / "stopped" / path.name
-        # A resumed run keeps the document of its checkpoint, spelled as it was.
-        assert compare(colladaphy.read(path).load(), colladaphy.read(other).load()) == []
+        assert path.read_bytes() == (tmp_path / "stopped" / path.name).read_bytes()
 
 
 @settings(max_examples=20)

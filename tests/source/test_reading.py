@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from colladaphy.errors import InputError, XmlError
-from colladaphy.source import Limits, parse
+from colladaphy.source import Limits, parse, parse_loaded
 
 DATA = b"<COLLADA><a/></COLLADA>"
 
@@ -103,7 +103,7 @@ def test_relative_files(tmp_path: Path) -> None:
     (folder / "image.png").write_bytes(b"png")
     parsed = parse(folder / "main.dae")
     assert parsed.open_relative("./image.png").data == b"png"
-    other = parsed.parse_relative("parts/a%20b.dae#model")
+    other = parse_loaded(parsed.load_relative("parts/a%20b.dae#model"))
     assert other.tree.getroot()[0].tag == "b"
     assert other.open_relative("../image.png").data == b"png"
     assert other.open_relative(r"..\image.png").data == b"png"

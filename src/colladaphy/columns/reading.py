@@ -15,7 +15,6 @@ from colladaphy.columns.places import Place, Places
 from colladaphy.columns.plain import Tree, plain, serialised
 from colladaphy.columns.texts import (
     Ranges,
-    are_same,
     factors_of,
     strings_of,
 )
@@ -128,31 +127,6 @@ class Document:
         codes = np.full(len(rows), -1, np.int64)
         codes[there] = numbers
         return codes, texts
-
-    def same_texts(self, rows: Rows, name: str, others: Rows, other_name: str) -> Array:
-        """Where (n,) an attribute of rows is that of as many others; False where one has none."""
-        first, some = self._attribute(rows, name)
-        second, more = self._attribute(others, other_name)
-        if len(rows) != len(others):
-            raise ValueError(f"there are {len(rows)} rows and {len(others)} others")
-        both = np.arange(len(rows))
-        if first is not None or second is not None:
-            one = both if first is None else first
-            two = both if second is None else second
-            both = np.intersect1d(one, two)
-            some = some.take(np.searchsorted(one, both))
-            more = more.take(np.searchsorted(two, both))
-        same = are_same(some, more)
-        odd = np.flatnonzero(~same)
-        if len(odd):  # blanks and references may be spelled differently
-            texts = [
-                strings_of(ranges.take(odd), "token", attribute=True, entities=self._entities)
-                for ranges in (some, more)
-            ]
-            same[odd] = [one == two for one, two in zip(*texts, strict=True)]
-        found = np.zeros(len(rows), np.bool_)
-        found[both] = same
-        return found
 
     # --- single elements, by their numbers in the document
 

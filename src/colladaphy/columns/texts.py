@@ -20,7 +20,6 @@ from colladaphy.columns.words import LOW, Words
 
 __all__ = [
     "Ranges",
-    "are_same",
     "boolean_lists_of",
     "booleans_of",
     "factors_of",
@@ -163,20 +162,6 @@ def _few(words: Array, lengths: Array) -> tuple[Array, Array] | None:
 
 _MOST_LOOKED_FOR = 6
 _MIX: Final = U(0x9E3779B97F4A7C15)
-
-
-def are_same(some: Ranges, others: Ranges) -> Array:
-    """Where the bytes of two lists of texts (n,) are the same."""
-    same = (some.stops - some.starts) == (others.stops - others.starts)
-    lengths = some.stops - some.starts
-    longest = int(lengths[same].max(initial=0))
-    for place in range(0, longest, 8):
-        rows = np.flatnonzero(same & (lengths > place))
-        one = some.all_words.at(some.starts[rows] + place)
-        one ^= others.all_words.at(others.starts[rows] + place)
-        one &= LOW[np.minimum(lengths[rows] - place, 8)]
-        same[rows[one != 0]] = False
-    return np.asarray(same)
 
 
 def strings_of(ranges: Ranges, kind: str, *, attribute: bool, entities: bool) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import re
 import time
@@ -44,6 +45,18 @@ class Found:
     document: SceneDocument
     """The document that holds it."""
     findings: tuple[Finding, ...] = field(default=())
+
+    @property
+    def carried(self) -> SceneDocument | None:
+        """The document, if there is more in it than the World; of a World alone there is none.
+
+        So the checkpoints of a run that is resumed are those of the run that is not, to the byte.
+        """
+        from colladaphy.document import write
+
+        alone = io.BytesIO()
+        write(self.world, alone)
+        return None if self.path.read_bytes() == alone.getvalue() else self.document
 
 
 def read_checkpoint(path: str | os.PathLike[str]) -> World:

@@ -124,7 +124,7 @@ class Simulation:
         in the same version goes on to the last bit. Another one goes on from the World, with a
         finding. EngineError if there is no checkpoint that is whole (those that are not are in the
         report), or if the engine that wrote it is not there and no other one is named. Without a
-        `document` the checkpoint's own is taken.
+        `document` the checkpoint's own is taken, if there is more in it than the World.
         """
         found = Checkpoints(source).newest() if Path(source).is_dir() else open_checkpoint(source)
         world, passed = found.world, found.findings
@@ -139,7 +139,7 @@ class Simulation:
             forces=forces,
             on_contact=on_contact,
             on_finding=on_finding,
-            document=found.document if document is None else document,
+            document=found.carried if document is None else document,
         )
         run.report.findings[:0] = passed
         return run

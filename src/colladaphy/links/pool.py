@@ -19,7 +19,7 @@ from colladaphy.links.poses import Poses
 from colladaphy.links.resource import Resource
 from colladaphy_schema.rows import Rows
 
-__all__ = ["Pool", "Table", "concatenated", "expanded"]
+__all__ = ["Pool", "Table", "concatenated", "expanded", "taken"]
 
 Array = NDArray[Any]
 R = TypeVar("R", bound=Rows)
@@ -270,3 +270,17 @@ def concatenated(parts: Sequence[T]) -> T:
         else:
             values[field.name] = concatenated(mine)
     return type(first)(**values)
+
+
+def taken(record: T, rows: Array) -> T:
+    """Some rows of a record of arrays, lists and poses, in that order, field by field."""
+    values: dict[str, Any] = {}
+    for field in fields(record):  # type: ignore[arg-type]
+        column = getattr(record, field.name)
+        if isinstance(column, list):
+            values[field.name] = [column[row] for row in rows.tolist()]
+        elif isinstance(column, np.ndarray):
+            values[field.name] = column[rows]
+        else:
+            values[field.name] = column.take(rows)
+    return type(record)(**values)

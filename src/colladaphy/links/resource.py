@@ -76,11 +76,6 @@ class Resource:
             self._tree = self._parser()
         return self._tree
 
-    @property
-    def has_tree(self) -> bool:
-        """Whether the tree is there already."""
-        return self._tree is not None
-
     def with_tree(self, tree: etree._ElementTree) -> Resource:
         """The same document after a change."""
         return Resource(tree, None, file=self.file, report=self.report, opener=self.opener,

@@ -75,10 +75,6 @@ class _Placed:
         resource = self.open_relative(url)
         return Loaded(resource.data, resource.file, resource.origin, self.limits)
 
-    def parse_relative(self, url: str) -> Parsed:
-        """The COLLADA document that a relative URL names, with the same border and limits."""
-        return parse_loaded(self.load_relative(url), mend=self.mended)
-
 
 @dataclass(frozen=True, slots=True)
 class Loaded(_Placed):

@@ -14,6 +14,7 @@ import orjson
 from numpy.typing import NDArray
 
 from colladaphy.links.nodes import Sums
+from colladaphy.links.pool import concatenated, taken
 from colladaphy.links.poses import Poses, rotate_vectors, unit_quaternions
 from colladaphy.mapper.loading.deciding import Deciding, Prefer
 from colladaphy.mapper.loading.found import FoundBodies
@@ -23,10 +24,10 @@ from colladaphy.mapper.loading.meshes import Geometries
 from colladaphy.mapper.loading.parts import Parts, new_parts
 from colladaphy.mapper.loading.planes import plane_poses
 from colladaphy.mapper.loading.profile import Motions, ProfileBodies, read_motions, read_profiles
-from colladaphy.mapper.loading.shapes import MaterialRefs, move_planes
+from colladaphy.mapper.loading.shapes import move_planes
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy.mapper.loading.tensors import diagonals, turned_tensors
-from colladaphy.mapper.loading.unions import Compounds, compound_parts
+from colladaphy.mapper.loading.unions import Compounds, Unions
 from colladaphy.mapper.loading.values import BodyValues, overridden, read_bodies, read_instances
 from colladaphy.mapper.tokens import same_token, system_id
 from colladaphy.world import World
@@ -88,13 +89,11 @@ def load_bodies(
 
 
 def _taken(values: BodyValues, rows: Array) -> BodyValues:
-    if len(rows) == len(values.mass) and bool(np.all(rows == np.arange(len(rows)))):
-        return values
-    made: dict[str, Any] = {}
-    for name in BodyValues.__dataclass_fields__:
-        column = getattr(values, name)
-        made[name] = column.take(rows) if isinstance(column, Poses | MaterialRefs) else column[rows]
-    return BodyValues(**made)
+    return values if _are_all(rows, len(values.mass)) else taken(values, rows)
+
+
+def _are_all(rows: Array, count: int) -> bool:
+    return len(rows) == count and bool(np.all(rows == np.arange(count)))
 
 
 class _Loading:
@@ -169,7 +168,7 @@ class _Loading:
             origin.put(several, compounds.places)
             parts = _stacked(parts, more) if start else more
         motions: Motions = self._tables.body_instances.gather(read_motions)
-        mine = _taken_motions(motions, found.rows)
+        mine = motions if _are_all(found.rows, len(motions.there)) else taken(motions, found.rows)
         self._identify(parts, tops)
         loaded = LoadedBodies(
             found, parts, tops, self._fixed(), mine.sleeping, linear.copy(), angular.copy(),
@@ -250,11 +249,12 @@ class _Loading:
     # --- bodies of several shapes
 
     def _compounds(self, bodies: Array) -> Compounds:
-        return compound_parts(
+        unions = Unions(
             bodies, self._found, self._members, self._material_ids, self._values, self._profile,
             self._kept if self._prefer != "common" else np.full(len(self._kept), -1),
             self._deciding, self._tables, self._world, self.stated_inertias,
         )  # fmt: skip
+        return unions.made()
 
     # --- who it is, and how it moves
 
@@ -458,12 +458,4 @@ def _off_center(
 
 
 def _stacked(first: Parts, second: Parts) -> Parts:
-    from colladaphy.links.pool import concatenated
-
     return concatenated([first, second])
-
-
-def _taken_motions(motions: Motions, rows: Array) -> Motions:
-    if len(rows) == len(motions.there) and bool(np.all(rows == np.arange(len(rows)))):
-        return motions
-    return Motions(**{name: getattr(motions, name)[rows] for name in Motions.__dataclass_fields__})

@@ -6,12 +6,13 @@ union that holds them, so that the last one is the body itself.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.links.pool import taken
 from colladaphy.links.poses import Poses
 
 __all__ = ["Parts", "new_parts"]
@@ -47,20 +48,11 @@ class Parts:
 
     def take(self, rows: Array) -> Parts:
         """Some of them, in that order; parents are numbered anew."""
-        values: dict[str, Any] = {}
-        for field in fields(self):
-            column = getattr(self, field.name)
-            if isinstance(column, list):
-                values[field.name] = [column[row] for row in rows.tolist()]
-            elif isinstance(column, Poses):
-                values[field.name] = column.take(rows)
-            else:
-                values[field.name] = column[rows]
-        taken = Parts(**values)
+        some = taken(self, rows)
         places = np.full(len(self) + 1, -1, np.int64)
         places[rows] = np.arange(len(rows))
-        taken.parents = places[taken.parents]
-        return taken
+        some.parents = places[some.parents]
+        return some
 
 
 def new_parts(count: int) -> Parts:

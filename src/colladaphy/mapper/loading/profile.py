@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.links.pool import concatenated
+from colladaphy.links.pool import concatenated, taken
 from colladaphy.links.poses import Poses
 from colladaphy.world.kinds import Kind
 from colladaphy_schema.pe_columns import ShapeTypeRows
@@ -59,16 +59,7 @@ class Parts:
 
     def take(self, rows: Array) -> Parts:
         """Some of them."""
-        values: dict[str, Any] = {}
-        for field in fields(self):
-            column = getattr(self, field.name)
-            if isinstance(column, list):
-                values[field.name] = [column[row] for row in rows.tolist()]
-            elif isinstance(column, Poses):
-                values[field.name] = column.take(rows)
-            else:
-                values[field.name] = column[rows]
-        return Parts(**values)
+        return taken(self, rows)
 
 
 @dataclass(slots=True)

@@ -23,7 +23,7 @@ from colladaphy.mapper.loading.values import BodyValues
 from colladaphy.world import World
 from colladaphy.world.kinds import Kind
 
-__all__ = ["Compounds", "compound_parts"]
+__all__ = ["Compounds", "Unions"]
 
 Array = NDArray[Any]
 
@@ -39,26 +39,9 @@ class Compounds:
     """Where they stand in the rigid_bodies."""
 
 
-def compound_parts(
-    bodies: Array,
-    found: FoundBodies,
-    members: Members,
-    material_ids: Array,
-    values: BodyValues,
-    profile: ProfileBodies,
-    kept: Array,
-    deciding: Deciding,
-    tables: Tables,
-    world: World,
-    stated_inertias: Callable[[Array, Poses], Array],
-) -> Compounds:
+class Unions:
     """Some of the bodies as unions of their shapes, or of those that the profile tells."""
-    union = _Unions(bodies, found, members, material_ids, values, profile, kept, deciding, tables,
-                    world, stated_inertias)  # fmt: skip
-    return union.made()
 
-
-class _Unions:
     def __init__(
         self,
         bodies: Array,
@@ -128,6 +111,7 @@ class _Unions:
         )  # fmt: skip
 
     def made(self) -> Compounds:
+        """The unions with all that is in them."""
         members, rows = self._members, self._rows
         count = len(rows)
         parts = new_parts(count)
@@ -341,7 +325,7 @@ class _Unions:
 class _Inner:
     """Unions within unions of the profile, each after the one that holds it."""
 
-    unions: _Unions
+    unions: Unions
     bodies: Array
     """The bodies whose trees are told, by their place among the compounds."""
     rows: Array
@@ -358,7 +342,7 @@ class _Inner:
     """The refined members, and the inner unions that hold them."""
 
     @classmethod
-    def of(cls, unions: _Unions, bodies: Array) -> _Inner:
+    def of(cls, unions: Unions, bodies: Array) -> _Inner:
         profile = unions._profile
         order = np.lexsort((profile.union_depth, profile.union_owner))
         owners = profile.union_owner[order]
