@@ -68,6 +68,8 @@ class Finding:
     """The scoped id of the element."""
     related: tuple[tuple[str, int | None], ...] = ()
     """Paths and lines of elements that have to do with it."""
+    repair: str | None = None
+    """The code of the repair that mends it; None where only an author can."""
 
     def as_dict(self) -> dict[str, Any]:
         """The finding as the JSON report spells it (the file is named by the report)."""
@@ -84,6 +86,8 @@ class Finding:
             "attribute": self.attribute,
             "sid": self.sid,
             "related": [{"path": path, "line": line} for path, line in self.related],
+            "fixable": self.repair is not None,
+            "repair": self.repair,
         }
 
     def __str__(self) -> str:

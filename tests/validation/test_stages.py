@@ -225,7 +225,7 @@ def test_the_json_report() -> None:
     (finding,) = file["findings"]
     assert list(finding) == [
         "code", "severity", "stage", "message", "line", "column", "path", "hint", "why",
-        "attribute", "sid", "related",
+        "attribute", "sid", "related", "fixable", "repair",
     ]  # fmt: skip
     assert (finding["code"], finding["severity"], finding["stage"], finding["line"]) == (
         "schema-invalid-value",

@@ -15,6 +15,7 @@ from colladaphy.source import Limits, Loaded, Source, load, parse_loaded
 from colladaphy.source import rules as source_rules
 from colladaphy.source.places import locate
 from colladaphy.validation.availability import availability
+from colladaphy.validation.options import Options
 
 if TYPE_CHECKING:
     from lxml import etree
@@ -35,13 +36,16 @@ _LARGE = 1 << 16
 """Bytes from which a tree costs more than to look first whether one is needed."""
 
 
-def validate(source: Source, *, limits: Limits | None = None) -> Report:
+def validate(
+    source: Source, *, limits: Limits | None = None, options: Options | None = None
+) -> Report:
     """Check a document and report everything that is wrong with it.
 
     Bad content is reported, never raised. InputError only where there is nothing to read: a
     missing file, a folder, no permission.
     """
     limits = limits or Limits()
+    options = options or Options()
     try:
         loaded = load(source, limits)
     except InputError as error:

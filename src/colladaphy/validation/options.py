@@ -1,0 +1,17 @@
+"""What a check may be told."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from colladaphy.findings import Severity
+
+__all__ = ["Options"]
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How `validate` checks a document."""
+
+    collada_14: Severity | None = Severity.ERROR
+    """How much it matters that a document is COLLADA 1.4, not 1.5; None: not at all."""
