@@ -20,8 +20,9 @@ from colladaphy.source.xml import COLLADA_1_4, COLLADA_1_5
 if TYPE_CHECKING:
     from lxml.etree import _Element, _ElementTree
 
-__all__ = ["gate"]
+__all__ = ["gate", "violations"]
 
+_Found = tuple["_Element", Violation]
 _LOCK = threading.Lock()
 _all_ids = etree.XPath("//*/@id", smart_strings=False)
 _NCNAME = re.compile(r"[^\W\d][\w.\-·]*\Z")
@@ -42,19 +43,27 @@ def gate(tree: _ElementTree, *, fresh: bool = False) -> list[Finding]:
         if not namespace:
             message = "The root element has no namespace."
         return [rules.WRONG_NAMESPACE.at(root, message)]
-    parents = wide_parents(tree)
-    complaints = validate_in_blocks(tree, parents, _validate) if parents else _validate(tree)
-    violations = [(element, translate(code, message)) for element, code, message in complaints]
     places = Places(root)
-    found = [*_clean(violations), *_unknown_profile(tree)]
-    if violations or not fresh:
-        found += _duplicate_ids(tree)
-    found.sort(key=lambda pair: places.order(pair[0]))
     findings = [
         violation.rule.at(element, violation.message, path=places.path(element))
-        for element, violation in found
+        for element, violation in violations(tree, fresh=fresh, places=places)
     ]
     return list(dict.fromkeys(findings))
+
+
+def violations(
+    tree: _ElementTree, *, fresh: bool = False, places: Places | None = None
+) -> list[_Found]:
+    """The deviations that `gate` makes findings of, each with its element; see there."""
+    places = places or Places(tree.getroot())
+    parents = wide_parents(tree)
+    complaints = validate_in_blocks(tree, parents, _validate) if parents else _validate(tree)
+    said = [(element, translate(code, message)) for element, code, message in complaints]
+    found = [*_clean(said), *_unknown_profile(tree)]
+    if said or not fresh:
+        found += _duplicate_ids(tree)
+    found.sort(key=lambda pair: places.order(pair[0]))
+    return found
 
 
 def _validate(tree: _ElementTree) -> list[Complaint]:
@@ -66,9 +75,6 @@ def _validate(tree: _ElementTree) -> list[Complaint]:
         entries = [(entry.path, entry.type, entry.message) for entry in log]
     places = Places(tree.getroot())
     return [(places.element(path or "/*"), code, message) for path, code, message in entries]
-
-
-_Found = tuple["_Element", Violation]
 
 
 def _clean(violations: list[_Found]) -> list[_Found]:
