@@ -88,7 +88,7 @@ def test_other_files_are_read_once(tmp_path: Path) -> None:
     two = document.resolve("sub/two.dae#m", origin)
     assert one.document is two.document
     assert one.document is not document
-    with pytest.raises(colladaphy.InputError):
+    with pytest.raises(colladaphy.DocumentError):
         document.resolve("../two.dae#n", origin)
 
 

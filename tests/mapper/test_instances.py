@@ -200,8 +200,11 @@ def test_other_files_in_an_archive() -> None:
 
 def test_other_files_need_a_folder() -> None:
     main, _ = two_files()
-    with pytest.raises(colladaphy.InputError):
-        colladaphy.read(main).load()
+    document = colladaphy.read(main)
+    document.load()
+    (finding,) = [found for found in document.report if found.stage == "io"]
+    assert finding.code == "io-reference-refused" and finding.line
+    assert "Read the document from its path" in (finding.hint or "")
 
 
 def test_choosing_scenes_and_models() -> None:

@@ -16,7 +16,7 @@ from lxml import etree
 from colladaphy.errors import DocumentError
 from colladaphy.links import rules
 from colladaphy.links.names import c
-from colladaphy.links.pool import Pool
+from colladaphy.links.pool import Pool, is_unreachable
 from colladaphy.links.resource import Resource
 from colladaphy.world import World
 from colladaphy_schema.document_columns import ColladaSceneRows
@@ -217,9 +217,13 @@ class Scenes:
             table, list(effects.url), np.zeros(len(effects), np.int64), ordinals, "physics_scene"
         )
         for place in sorted(errors):
-            raise errors[place]
+            if not (resource.tolerant or is_unreachable(errors[place])):
+                raise errors[place]
+            resource.note_broken(errors[place])
         instances: dict[int, list[int]] = {row: [] for row in range(len(table.parts[0]))}
         for row, number in zip(targets.tolist(), ordinals.tolist(), strict=True):
+            if row < 0:
+                continue
             instances.setdefault(row, []).append(number)
         self._scenes = []
         for row, numbers in instances.items():

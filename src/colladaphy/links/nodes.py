@@ -6,7 +6,7 @@ holds the instance; a node that stands nowhere else is taken to stand at the ori
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -200,9 +200,7 @@ class Placement:
                 )
                 # What is not there is not seen, but moves nothing.
                 for error in errors.values():
-                    self._resource.report.extend(
-                        replace(finding, severity=Severity.WARNING) for finding in error.findings
-                    )
+                    self._resource.note_broken(error, Severity.WARNING)
                 holders = pool.resources[home].columns.index.parent[part.ordinals]
                 for target, holder in zip(targets.tolist(), holders.tolist(), strict=True):
                     if target < 0 or (target < len(roots) and roots[target]):

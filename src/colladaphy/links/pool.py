@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 from colladaphy.errors import ColladaError, DocumentError
 from colladaphy.links.poses import Poses
 from colladaphy.links.resource import Resource
+from colladaphy.source.rules import UNREACHABLE
 from colladaphy_schema.rows import Rows
 
-__all__ = ["Pool", "Table", "concatenated", "expanded", "taken"]
+__all__ = ["Pool", "Table", "concatenated", "expanded", "is_unreachable", "taken"]
 
 Array = NDArray[Any]
 R = TypeVar("R", bound=Rows)
@@ -27,6 +28,11 @@ T = TypeVar("T")
 
 _HOME = np.int64(1) << 40
 """Above all numbers of elements of one document."""
+
+
+def is_unreachable(error: ColladaError) -> bool:
+    """Whether a reference cannot be followed only because its file cannot be reached."""
+    return all(finding.code in UNREACHABLE for finding in error.findings)
 
 
 class Pool:
@@ -66,7 +72,7 @@ class Pool:
 
         `homes` are the numbers of the documents that the references stand in, `origins` the
         numbers of their elements there. Where the scene cannot do without what is `needed`, a
-        document that cannot be read raises.
+        document that is there but cannot be read raises, unless the first one is tolerant.
         """
         count = len(references)
         rows = np.full(count, -1, np.int64)
@@ -94,7 +100,7 @@ class Pool:
                 except DocumentError as error:
                     found = error
                 except ColladaError as error:
-                    if needed:
+                    if needed and not self.resources[0].tolerant:
                         raise
                     found = DocumentError(error.findings)
                 seen[key] = found

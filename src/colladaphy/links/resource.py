@@ -8,18 +8,21 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cached_property
 from itertools import islice
+from typing import Any
 
 from lxml import etree
 
 from colladaphy.columns.reading import Document as Columns
 from colladaphy.conform.thesis_profile import in_our_spelling
-from colladaphy.errors import DocumentError
-from colladaphy.findings import Report, Rule, Severity
+from colladaphy.errors import ColladaError, DocumentError, InputError
+from colladaphy.findings import Finding, Report, Rule, Severity, element_path
 from colladaphy.links import addresses, rules
 from colladaphy.links.names import COLLADA, PE, c
 from colladaphy.links.sids import Sids
+from colladaphy.source.rules import REFERENCE_REFUSED, UNREACHABLE
 from colladaphy_schema.core_columns import AssetTypeRows, TechniqueTypeRows
 
 __all__ = ["Resource"]
@@ -67,6 +70,8 @@ class Resource:
         self._shown: etree._ElementTree | None = None
         self._elements: list[etree._Element] | None = None
         self._asked = 0
+        self._closed: dict[str, ColladaError] = {}
+        self._told: set[Finding] = set()
 
     @property
     def tree(self) -> etree._ElementTree:
@@ -169,18 +174,54 @@ class Resource:
         return addresses.follow(self, reference, origin, expected)
 
     def related(self, file: str, origin: int) -> Resource:
-        """The document that a relative reference names; each is read once."""
+        """The document that a relative reference names; each is read once.
+
+        Raises DocumentError where the file cannot be reached (the same one, for the place that
+        asked first, however often it is asked for), and what reading it raises.
+        """
         known = self.family.get(f"{self.file}\n{file}")
         if known is None:
-            if self.opener is None:
-                message = f"The document refers to {file!r}, but it was not read from a file."
-                raise DocumentError(rules.MISSING.at(self.element(origin), message, file=self.file))
-            known = self.opener(file)
+            if file in self._closed:
+                raise self._closed[file]
+            try:
+                known = self._open(file)
+            except ColladaError as error:
+                self._closed[file] = self._unreachable(error, origin)
+                raise self._closed[file] from None
             for other in self.family.values():
                 if other.file is not None and other.file == known.file:
                     known = other
             self.family[f"{self.file}\n{file}"] = known
         return known
+
+    def _open(self, file: str) -> Resource:
+        if self.opener is None:
+            message = f"The document refers to {file!r}, but it was not read from a file."
+            raise InputError(REFERENCE_REFUSED.at(message=message))
+        return self.opener(file)
+
+    def _unreachable(self, error: ColladaError, origin: int) -> ColladaError:
+        """Why a file cannot be opened, with the place that refers to it."""
+        if any(finding.code not in UNREACHABLE for finding in error.findings):
+            return error
+        place: Any = self.element(origin)  # the stubs leave the type of sourceline open
+        return DocumentError(
+            replace(finding, file=self.file, line=place.sourceline, path=element_path(place))
+            for finding in error.findings
+        )
+
+    def note_broken(self, error: ColladaError, severity: Severity | None = None) -> None:
+        """Add why a reference cannot be followed, with another severity if need be.
+
+        What was told before is not told again: a file that cannot be reached is one finding,
+        however much of it is missed.
+        """
+        for finding in error.findings:
+            if severity is not None:
+                finding = replace(finding, severity=severity)
+            if finding not in self._told:
+                self._told.add(finding)
+                self.report.add(finding)
 
     def note(
         self,

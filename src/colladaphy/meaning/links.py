@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 
 from colladaphy.errors import ColladaError
-from colladaphy.findings import Severity
+from colladaphy.findings import Finding, Severity
 from colladaphy.links.rules import MISSING, WRONG_TYPE
 from colladaphy.meaning import link_rules
 from colladaphy.meaning.context import Context, TextRows
@@ -98,17 +98,23 @@ def _followed(
         hits = []
         for finding in error.findings:
             rule = _OUTSIDE.get(finding.code)
-            if rule is source_rules.REFERENCE_REFUSED:
-                # Not wrong, but it cannot be checked.
-                level = Severity.WARNING
-            elif rule is None:
+            if rule is None:
                 rule = WRONG_TYPE if finding.code == WRONG_TYPE.code else MISSING
                 level = severity
-            else:
-                level = severity
+            else:  # only what is in that file is not there, and it cannot be checked
+                told = context.shared(_unreachable)
+                if finding in told:
+                    continue
+                told.add(finding)
+                level = Severity.WARNING
             hits.append(Hit(rule, element, finding.message, (), attribute, level, finding.hint))
         return hits
     return []
+
+
+def _unreachable(_: Context) -> set[Finding]:
+    """What was said of files that cannot be reached: each is one finding."""
+    return set()
 
 
 def _names_file(text: str) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from colladaphy.findings import Rule, Severity
 
-__all__ = ["RULES"]
+__all__ = ["RULES", "UNREACHABLE"]
 
 _ERROR = Severity.ERROR
 _WARNING = Severity.WARNING
@@ -67,13 +67,13 @@ ARCHIVE_ROOT = Rule(
 )
 REFERENCE_REFUSED = Rule(
     "io-reference-refused",
-    _ERROR,
+    _WARNING,
     "A reference to another file leads out of the document's folder or archive.",
     "Put the file next to the document and refer to it by a relative name.",
 )
 REFERENCE_MISSING = Rule(
     "io-reference-missing",
-    _ERROR,
+    _WARNING,
     "A file that the document refers to does not exist.",
     "Put the file where the reference says, or correct the reference.",
 )
@@ -176,6 +176,9 @@ WRONG_NAMESPACE = Rule(
     'COLLADA 1.5 has xmlns="http://www.collada.org/2008/03/COLLADASchema".',
     "COLLADA 1.5 §COLLADA",
 )
+
+UNREACHABLE = frozenset({REFERENCE_REFUSED.code, REFERENCE_MISSING.code})
+"""Of files that a document refers to: what they hold is left out, all else is as it was."""
 
 RULES = (
     MISSING,

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.errors import DocumentError
+from colladaphy.errors import ColladaError, DocumentError
 from colladaphy.links.addresses import split_reference
+from colladaphy.links.pool import is_unreachable
 from colladaphy.links.poses import Poses
 from colladaphy.mapper import rules
 from colladaphy.mapper.loading.bodies import LoadedBodies
@@ -40,6 +41,11 @@ class Ends:
         ):
             self._by_model.setdefault((model, row), []).append(body)
             self._by_body.setdefault(row, []).append(body)
+        self._by_node: dict[tuple[int, int], set[int]] = {}
+        for body, (model, node) in enumerate(
+            zip(found.models.tolist(), found.nodes.tolist(), strict=True)
+        ):
+            self._by_node.setdefault((model, node), set()).add(body)
         bodies = tables.bodies
         self._sids: dict[tuple[int, str], int] = {}
         for row, (key, sid) in enumerate(
@@ -74,14 +80,14 @@ class Ends:
                         body, node = self._end(row, side, model, reference)
                     ends.append(body)
                     stands.append(node)
-            except DocumentError as error:
-                self._tables.resource.report.extend(error.findings)
+            except ColladaError as error:
+                self._tables.resource.note_broken(error)
+                if is_unreachable(error):
+                    self._skip(row, references[2 * row + len(ends)])
                 continue
+            self._moved(model, ends, stands)
             if -2 in ends:
-                reference = references[2 * row + ends.index(-2)]
-                home, element = self._place(row)
-                message = f"The body {reference!r} was not loaded; the constraint is skipped."
-                self._tables.resource.note(rules.CONSTRAINT_SKIPPED, element, message, home=home)
+                self._skip(row, references[2 * row + ends.index(-2)])
                 continue
             kept.append(number)
             bodies.append((ends[0], ends[1]))
@@ -92,6 +98,24 @@ class Ends:
         if len(there):
             places.put(there, self._tables.placement.poses(flat[there])[0])
         return np.array(kept, np.int64), np.array(bodies, np.int64).reshape(-1, 2), places
+
+    def _moved(self, model: int, ends: list[int], stands: list[int]) -> None:
+        """A node means the body that it moves, unless the other end is that body itself.
+
+        A node that several bodies of the model move means none of them: it is of the world.
+        """
+        for side in (0, 1):
+            if ends[side] == -1 and stands[side] >= 0:
+                bodies = self._by_node.get((model, stands[side]), set())
+                body = next(iter(bodies)) if len(bodies) == 1 else -1
+                if body not in (-1, ends[1 - side]):
+                    ends[side] = body if self._created[body] else -2
+                    stands[side] = -1
+
+    def _skip(self, row: int, reference: str) -> None:
+        home, element = self._place(row)
+        message = f"The body {reference!r} was not loaded; the constraint is skipped."
+        self._tables.resource.note(rules.CONSTRAINT_SKIPPED, element, message, home=home)
 
     def _place(self, row: int) -> tuple[Any, int]:
         table = self._tables.constraints

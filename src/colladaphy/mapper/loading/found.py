@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from colladaphy.errors import DocumentError
 from colladaphy.links import rules as link_rules
 from colladaphy.links.nodes import Sums
-from colladaphy.links.pool import Table
+from colladaphy.links.pool import Table, is_unreachable
 from colladaphy.links.poses import Poses
 from colladaphy.mapper.loading.instances import Expansion
 from colladaphy.mapper.loading.tables import Tables
@@ -94,7 +94,10 @@ def find_bodies(tables: Tables, expansion: Expansion) -> FoundBodies:
         homes[good[mine]], origins[good[mine]], "node",
     )  # fmt: skip
     for at, error in broken.items():
-        errors[int(good[mine[at]])] = error
+        if is_unreachable(error):  # it stands at its model's place, as without a target
+            tables.resource.note_broken(error)
+        else:
+            errors[int(good[mine[at]])] = error
     poses = Poses.none(len(good))
     there = np.flatnonzero(nodes >= 0)
     if len(there):
@@ -104,7 +107,7 @@ def find_bodies(tables: Tables, expansion: Expansion) -> FoundBodies:
             if int(nodes[at]) in circles:
                 errors[int(good[at])] = circles[int(nodes[at])]
     for place in sorted(errors):
-        tables.resource.report.extend(errors[place].findings)
+        tables.resource.note_broken(errors[place])
     poses = expansion.node_poses(tables, expansion.chains[models[good]], nodes, poses)
     keep = np.ones(len(rows), np.bool_)
     keep[list(errors)] = False

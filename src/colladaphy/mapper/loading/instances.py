@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from colladaphy.errors import DocumentError
 from colladaphy.links import rules
+from colladaphy.links.pool import is_unreachable
 from colladaphy.links.poses import Poses
 from colladaphy.mapper.loading.tables import Tables
 
@@ -141,6 +142,9 @@ def _followed(
                 more[place] = circles[int(nodes[place])]
                 nodes[place] = -1
         for place, error in more.items():
+            if is_unreachable(error):  # its bodies stand as without a parent
+                tables.resource.note_broken(error)
+                continue
             errors[int(places[place])] = error
             models[places[place]] = -1
         good = nodes >= 0
@@ -148,7 +152,7 @@ def _followed(
         chains = chains.copy()
         chains[places[good]] = chain_count + np.arange(int(good.sum()))
     for place in sorted(errors):
-        tables.resource.report.extend(errors[place].findings)
+        tables.resource.note_broken(errors[place])
     keep = models >= 0
     return models[keep], rows[keep], around[keep], chains[keep], fresh
 

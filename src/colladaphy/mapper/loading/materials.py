@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Container
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
@@ -169,9 +169,7 @@ class MaterialTable:
             key = (int(homes[places[place]]), int(refs.ordinals[places[place]]))
             if key not in self._missing:  # every shape asks again
                 self._missing.add(key)
-                tables.resource.report.extend(
-                    replace(finding, severity=Severity.WARNING) for finding in error.findings
-                )
+                tables.resource.note_broken(error, Severity.WARNING)
         for place in np.flatnonzero(given & refs.inline).tolist():
             rows[place] = tables.materials.row_of(int(homes[place]), int(refs.ordinals[place]))
         return rows

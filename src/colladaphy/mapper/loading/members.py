@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.links.pool import concatenated, expanded
+from colladaphy.links.pool import concatenated, expanded, is_unreachable
 from colladaphy.links.poses import Poses
 from colladaphy.links.sums import exact_sum
 from colladaphy.mapper import rules
@@ -211,6 +211,8 @@ def _meshes(
         tables.geometries, urls, homes[places], ordinals[places], "geometry", needed=False
     )
     for at, error in errors.items():
+        if is_unreachable(error):
+            tables.resource.note_broken(error)
         problems[int(places[at])] = ShapeFault(error.findings[0].message)
     good = np.flatnonzero(found >= 0)
     centers = np.zeros((len(places), 3))

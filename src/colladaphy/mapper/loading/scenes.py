@@ -103,8 +103,8 @@ class SceneValues:
                 tables.materials, list(references), homes, pairs.ordinals, "physics_material"
             )
             for place in sorted(errors):
-                raise errors[place]
-            ends.append([materials.known_id(row) for row in rows.tolist()])
+                tables.resource.note_broken(errors[place])
+            ends.append([None if row < 0 else materials.known_id(row) for row in rows.tolist()])
         for place, (first, second) in enumerate(zip(*ends, strict=True)):
             if first is None or second is None:
                 continue

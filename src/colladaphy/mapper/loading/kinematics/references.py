@@ -14,7 +14,7 @@ from urllib.parse import unquote
 
 import numpy as np
 
-from colladaphy.errors import DocumentError
+from colladaphy.errors import ColladaError
 from colladaphy.links.names import c
 from colladaphy.links.pool import Pool
 from colladaphy.mapper.loading.kinematics.models import Place, numbers_of
@@ -73,7 +73,7 @@ class References:
             return None
         try:
             target, found = resource.follow(url, element)
-        except DocumentError:
+        except ColladaError:
             return None
         return self._pool.number(target), found
 

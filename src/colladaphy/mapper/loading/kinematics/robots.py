@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from colladaphy.errors import DocumentError
+from colladaphy.errors import ColladaError
 from colladaphy.links.names import c
 from colladaphy.mapper import rules
 from colladaphy.mapper.loading.kinematics.models import Model, Place, numbers_of, read_model
@@ -287,7 +287,7 @@ class _Finder:
         try:
             target, found = resource.follow(reference, element)
             home = self._pool.number(target)
-        except DocumentError:
+        except ColladaError:
             # The first step may be a sid, of a node anywhere.
             head, *rest = reference.strip().lstrip("#").split("/")
             at: int | None = resource.sids.within(0, head)
