@@ -1,0 +1,80 @@
+"""What a property is, and all of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+from importlib import import_module
+from typing import Any
+
+from hypothesis.strategies import SearchStrategy
+
+__all__ = ["MODULES", "Property", "all_properties", "note", "noted", "of"]
+
+MODULES = ("worlds", "documents", "producers", "meaning", "anything")
+"""The modules of `tools.fuzz.properties`."""
+
+
+@dataclass(frozen=True)
+class Property:
+    """Something that must hold of every value that a strategy draws."""
+
+    name: str
+    values: Callable[[], SearchStrategy[tuple[Any, ...]]]
+    """Draws the arguments of `check`: such as `keeping` can write down."""
+    check: Callable[..., None]
+    """Raises where the property does not hold."""
+    weight: float = 1.0
+    """How much of the time it gets, beside the others."""
+
+    @property
+    def about(self) -> str:
+        """What holds, in words."""
+        return " ".join((self.check.__doc__ or "").split())
+
+
+_FOUND: dict[str, Property] = {}
+
+
+def of(
+    *strategies: Callable[[], SearchStrategy[Any]], weight: float = 1.0
+) -> Callable[[Callable[..., None]], Callable[..., None]]:
+    """Make a check a property, of values of these strategies; its name is the check's."""
+    from hypothesis import strategies as st
+
+    def register(check: Callable[..., None]) -> Callable[..., None]:
+        name = check.__name__.replace("_", "-")
+        assert name not in _FOUND, name
+
+        def values() -> SearchStrategy[tuple[Any, ...]]:
+            return st.tuples(*(strategy() for strategy in strategies))
+
+        _FOUND[name] = Property(name, values, check, weight)
+        return check
+
+    return register
+
+
+@cache
+def all_properties() -> dict[str, Property]:
+    """Every property, by name."""
+    for module in MODULES:
+        import_module(f"tools.fuzz.properties.{module}")
+    return dict(_FOUND)
+
+
+_NOTED: list[bytes] = []
+
+
+def note(document: bytes) -> bytes:
+    """Tell the runner of a document that a check made or was given, for its coverage."""
+    _NOTED.append(document)
+    return document
+
+
+def noted() -> list[bytes]:
+    """The documents that were noted since the last call."""
+    found = _NOTED.copy()
+    _NOTED.clear()
+    return found
