@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from lxml import etree
 from tests.mapper.documents import simple
-from tests.strategies.worlds import worlds
 
 import colladaphy
+from colladaphy.testing import worlds
 from colladaphy.world import World, compare
 
 
@@ -30,7 +30,7 @@ def a_document(world: World) -> colladaphy.Document:
 
 
 @settings(max_examples=20)
-@given(worlds())
+@given(worlds(min_bodies=0))
 def test_both_scenes_are_as_they_were(world: World) -> None:
     document = a_document(world)
     before = etree.tostring(document.tree, method="c14n")

@@ -6,10 +6,10 @@ import io
 
 import pytest
 from hypothesis import given, settings
-from tests.strategies.worlds import worlds
 
 import colladaphy
 from colladaphy.mapper import WriteOptions
+from colladaphy.testing import worlds
 from colladaphy.world import World, compare
 
 
@@ -21,7 +21,7 @@ def there_and_back(world: World, **options: object) -> tuple[World, colladaphy.D
 
 
 @settings(max_examples=60)
-@given(worlds())
+@given(worlds(min_bodies=0))
 def test_every_world_comes_back_exactly(world: World) -> None:
     again, document = there_and_back(world)
     assert compare(world, again) == []
@@ -29,7 +29,7 @@ def test_every_world_comes_back_exactly(world: World) -> None:
 
 
 @settings(max_examples=25)
-@given(worlds())
+@given(worlds(min_bodies=0))
 def test_with_a_full_profile_too(world: World) -> None:
     again, document = there_and_back(world, profile="full")
     assert compare(world, again) == []
@@ -42,7 +42,7 @@ def test_with_a_full_profile_too(world: World) -> None:
     ids=["density", "redundant", "groups"],
 )
 @settings(max_examples=20)
-@given(world=worlds())
+@given(world=worlds(min_bodies=0))
 def test_with_every_option(world: World, options: dict[str, object]) -> None:
     again, _ = there_and_back(world, **options)
     assert compare(world, again) == []
@@ -62,7 +62,7 @@ def test_a_tilted_plane_far_out_in_a_union(place: tuple[float, float, float]) ->
 
 
 @settings(max_examples=15)
-@given(worlds())
+@given(worlds(min_bodies=0))
 def test_the_same_world_gives_the_same_bytes(world: World) -> None:
     first, second = io.BytesIO(), io.BytesIO()
     colladaphy.write(world, first)

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from lxml import etree
-from tests.strategies.worlds import worlds
 
 import colladaphy
 from colladaphy.columns.writing import document_bytes
@@ -20,6 +19,7 @@ from colladaphy.mapper import WriteOptions, store
 from colladaphy.mapper.storing import columns_of
 from colladaphy.mapper.storing.checking import faults_of, has_unique_ids
 from colladaphy.mapper.storing.turns import mass_frames
+from colladaphy.testing import worlds
 from colladaphy.world import Body, Kind, World, rotations
 
 C, P = f"{{{COLLADA}}}", f"{{{PE}}}"
@@ -90,7 +90,7 @@ def product(a: Quaternion, b: Quaternion) -> Quaternion:
 
 
 @settings(max_examples=60)
-@given(worlds())
+@given(worlds(min_bodies=0))
 def test_members_stand_in_the_outermost_union_to_the_last_bit(world: World) -> None:
     root = tree_of(world)
     for body, element in zip(world.bodies, root.iter(f"{C}rigid_body"), strict=True):

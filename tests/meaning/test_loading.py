@@ -15,11 +15,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from tests.meaning.test_cases import FAULTS, NEAR, Case
-from tests.strategies.worlds import worlds
 
 import colladaphy
 from colladaphy import World
-from colladaphy.testing import documents
+from colladaphy.testing import documents, worlds
 from colladaphy.validation.mending import mend, serialise
 
 some = settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck))
@@ -47,7 +46,7 @@ def test_documents_of_physics(document: bytes) -> None:
 
 
 @some
-@given(worlds(wild=True))
+@given(worlds(min_bodies=0, extreme=True))
 def test_stored_worlds(world: World) -> None:
     target = io.BytesIO()
     colladaphy.write(world, target)
@@ -60,7 +59,7 @@ _ODD = (b"0", b"-1", b"NaN", b"INF", b"-INF", b"1e999", b"1e-320", b"1e308", b""
 
 
 @some
-@given(worlds(wild=False), st.integers(0, 2**32), st.integers(1, 3))
+@given(worlds(min_bodies=0, extreme=False), st.integers(0, 2**32), st.integers(1, 3))
 def test_edited_worlds(world: World, seed: int, times: int) -> None:
     """Numbers and references are replaced by others, and by such as have no meaning."""
     target = io.BytesIO()

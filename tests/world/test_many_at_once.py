@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
-from tests.strategies.worlds import worlds
 
 from colladaphy.errors import WorldError
+from colladaphy.testing import worlds
 from colladaphy.world import (
     BodyColumns,
     JointColumns,
@@ -74,7 +74,7 @@ def empty_twin(world: World) -> World:
     return twin
 
 
-@given(worlds(), st.data())
+@given(worlds(min_bodies=0), st.data())
 def test_a_world_is_its_columns_and_members(world: World, data: st.DataObject) -> None:
     twin = empty_twin(world)
     twin.extend(world.columns(), in_order(world, data))

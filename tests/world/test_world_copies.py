@@ -6,12 +6,12 @@ import copy
 import pickle
 
 from hypothesis import given
-from tests.strategies.worlds import worlds
 
+from colladaphy.testing import worlds
 from colladaphy.world import World, compare
 
 
-@given(worlds())
+@given(worlds(min_bodies=0))
 def test_copies_are_equal_and_independent(world: World) -> None:
     pickled, copied = pickle.loads(pickle.dumps(world)), copy.deepcopy(world)
     assert compare(world, pickled, unused_materials=True) == []

@@ -5,19 +5,19 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.strategies.worlds import worlds
 from tests.world.rebuilding import rebuilt
 
+from colladaphy.testing import worlds
 from colladaphy.world import World, compare
 
 
-@given(worlds())
+@given(worlds(min_bodies=0))
 def test_a_world_is_what_its_columns_say(world: World) -> None:
     assert compare(world, world) == []
     assert compare(world, rebuilt(world), unused_materials=True) == []
 
 
-@given(worlds(), st.data())
+@given(worlds(min_bodies=0), st.data())
 def test_every_changed_number_is_a_difference(world: World, data: st.DataObject) -> None:
     copy = rebuilt(world)
     name = data.draw(

@@ -1,7 +1,10 @@
-"""Documents over the whole COLLADA 1.5 schema, for property-based tests of whatever reads them.
+"""Worlds and documents for property-based tests of whatever reads or writes them.
 
     from hypothesis import given
-    from colladaphy.testing import documents, mutants
+    from colladaphy.testing import documents, mutants, worlds
+
+    @given(worlds())                         # anything that a World can hold; see its parameters
+    def test_writer(world: World) -> None: ...
 
     @given(documents())                      # schema-valid, any area of the schema
     def test_reader(document: bytes) -> None: ...
@@ -28,16 +31,22 @@ except ImportError as error:  # say what to install, not only what is missing
 from colladaphy.testing.coverage import Component, Coverage
 from colladaphy.testing.covering import covering_documents
 from colladaphy.testing.documents import AREAS, documents
+from colladaphy.testing.making.crowds import crowd
 from colladaphy.testing.mutations import MUTATIONS, mutants
+from colladaphy.testing.worlds import JOINTS, SHAPES, worlds
 
 del _hypothesis
 
 __all__ = [
     "AREAS",
+    "JOINTS",
     "MUTATIONS",
+    "SHAPES",
     "Component",
     "Coverage",
     "covering_documents",
+    "crowd",
     "documents",
     "mutants",
+    "worlds",
 ]

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import pytest
 from hypothesis import given, settings
-from tests.strategies.worlds import worlds
 from tests.world.rebuilding import rebuilt
 
 from colladaphy.engines import create_engine
 from colladaphy.errors import EngineError
 from colladaphy.findings import Severity
+from colladaphy.testing import worlds
 from colladaphy.world import World, compare
 
 
 @settings(max_examples=60)
-@given(worlds())
+@given(worlds(min_bodies=0, max_bodies=6))
 def test_any_world_is_run_or_refused(world: World) -> None:
     before = rebuilt(world)
     engine = create_engine("mujoco")

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from hypothesis import given
-from tests.strategies.worlds import worlds
 from tests.world.rebuilding import rebuilt
 
 from colladaphy.engines.pymunk_engine import PymunkEngine
 from colladaphy.errors import EngineError
 from colladaphy.findings import Severity
+from colladaphy.testing import worlds
 from colladaphy.world import World, compare
 
 
-@given(worlds())
+@given(worlds(min_bodies=0, max_bodies=6))
 def test_any_world_is_run_or_refused(world: World) -> None:
     before = rebuilt(world)
     engine = PymunkEngine()

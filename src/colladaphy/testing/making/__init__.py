@@ -1,0 +1,1 @@
+"""How Worlds are drawn: numbers, bodies, joints, materials, and the program that makes them."""
