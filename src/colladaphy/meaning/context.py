@@ -174,13 +174,17 @@ class Context:
         return values, elements
 
     def flags(self, rows: Rows, name: str, default: bool) -> tuple[Array, Array]:
-        """The truth value (n,) in a child of each row, and the child (n,), -1 for none."""
+        """The truth value (n,) in a child of each row, and the child (n,), -1 for none.
+
+        Without a child, and where it is empty, it is the schema's `default`.
+        """
         values = np.full(len(rows), default)
         elements = np.full(len(rows), -1, np.int64)
         found = self.children(rows, name, TextRows)
         if len(found):
             assert found.ordinals is not None
-            values[found.owner] = [text.strip() in ("true", "1") for text in found.value]
+            words = [text.strip() for text in found.value]
+            values[found.owner] = [word in ("true", "1") if word else default for word in words]
             elements[found.owner] = found.ordinals
         return values, elements
 

@@ -12,6 +12,10 @@ from numpy.typing import NDArray
 from colladaphy.meaning import scene_rules
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
+from colladaphy_schema.scene_columns import (
+    LightTypeTechniqueCommonPointRows,
+    LightTypeTechniqueCommonSpotRows,
+)
 
 __all__ = ["CHECKS", "degenerate_matrices"]
 
@@ -167,18 +171,13 @@ def cameras(context: Context) -> Iterator[Hit]:
 
 def lights(context: Context) -> Iterator[Hit]:
     """Lights with values out of range."""
-    for kind in ("point", "spot"):
-        lights = context.rows(FloatRows, kind)
-        if not len(lights):
-            continue
+    spots = context.rows(LightTypeTechniqueCommonSpotRows, "spot")
+    for lights in (context.rows(LightTypeTechniqueCommonPointRows, "point"), spots):
         factors = np.tile([1.0, 0.0, 0.0], (len(lights), 1))
         for place, name in enumerate(("constant", "linear", "quadratic")):
-            found = context.children(lights, f"{name}_attenuation", FloatRows)
-            assert found.ordinals is not None
-            factors[found.owner, place] = found.value.values
-            for element, value in zip(
-                found.ordinals.tolist(), found.value.values.tolist(), strict=True
-            ):
+            found = getattr(lights, f"{name}_attenuation")
+            factors[found.owner, place] = found.value
+            for element, value in zip(found.ordinals.tolist(), found.value.tolist(), strict=True):
                 if not value >= 0.0:
                     yield Hit(scene_rules.LIGHT, element, f"The {name} attenuation is {value:g}.")
         assert lights.ordinals is not None
@@ -188,13 +187,11 @@ def lights(context: Context) -> Iterator[Hit]:
                 element,
                 "All attenuations are zero, so that it is infinitely bright.",
             )
-        angles = context.children(lights, "falloff_angle", FloatRows)
-        assert angles.ordinals is not None
-        for element, value in zip(
-            angles.ordinals.tolist(), angles.value.values.tolist(), strict=True
-        ):
-            if not 0.0 < value <= 180.0:
-                yield Hit(scene_rules.LIGHT, element, f"The falloff angle is {value:g} degrees.")
+    angles = spots.falloff_angle
+    assert angles.ordinals is not None
+    for element, value in zip(angles.ordinals.tolist(), angles.value.tolist(), strict=True):
+        if not 0.0 < value <= 180.0:
+            yield Hit(scene_rules.LIGHT, element, f"The falloff angle is {value:g} degrees.")
 
 
 CHECKS = (numbers, rotations, scales, matrices, lookats, skews, cameras, lights)
