@@ -9,6 +9,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from colladaphy.version import VERSION as __version__
+
 if TYPE_CHECKING:
     from colladaphy.document import Document as Document
     from colladaphy.document import read as read
@@ -31,7 +33,6 @@ if TYPE_CHECKING:
     from colladaphy.world import World as World
     from colladaphy.world import compare as compare
 
-__version__ = "0.1.0"
 
 _HOME = {
     "ColladaError": "errors",

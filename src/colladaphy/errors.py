@@ -8,6 +8,7 @@ from colladaphy.findings import Finding
 
 __all__ = [
     "ColladaError",
+    "ConfigurationError",
     "DocumentError",
     "EngineError",
     "InputError",
@@ -42,6 +43,10 @@ class InputError(ColladaError, OSError):
 
 class OutputError(ColladaError, OSError):
     """The output cannot be written; what was there before is untouched."""
+
+
+class ConfigurationError(ColladaError, ValueError):
+    """A configuration or a baseline that cannot be read, or says what there is not."""
 
 
 class XmlError(ColladaError, ValueError):

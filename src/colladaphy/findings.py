@@ -29,9 +29,9 @@ __all__ = [
     "unchanging",
 ]
 
-STAGES = ("io", "xml", "upgrade", "repair", "convention", "schema", "asset", "link", "geometry",
-          "scene", "animation", "load", "store", "physics", "kinematics", "profile", "engine",
-          "downgrade")  # fmt: skip
+STAGES = ("config", "io", "xml", "upgrade", "repair", "convention", "schema", "asset", "link",
+          "geometry", "scene", "animation", "load", "store", "physics", "kinematics", "profile",
+          "engine", "downgrade")  # fmt: skip
 
 
 class Severity(StrEnum):

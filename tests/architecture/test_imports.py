@@ -22,7 +22,7 @@ def graph() -> grimp.ImportGraph:
 def test_the_graph_sees_lazy_imports_and_those_of_type_checkers(graph: grimp.ImportGraph) -> None:
     assert len(graph.modules) == len(list(HOME.rglob("*.py")))
     of_validate = graph.find_modules_directly_imported_by("colladaphy.cli.validate")
-    assert {"colladaphy.validation", "colladaphy.source.limits"} <= of_validate
+    assert {"colladaphy.validation.session", "colladaphy.source.limits"} <= of_validate
 
 
 def test_no_circle_of_modules(graph: grimp.ImportGraph) -> None:

@@ -12,7 +12,7 @@ import click
 from colladaphy import __version__
 from colladaphy.cli.console import EXIT_FINDINGS, EXIT_INTERNAL, EXIT_IO, note, say_findings
 from colladaphy.cli.group import LazyGroup
-from colladaphy.errors import ColladaError, InputError, OutputError
+from colladaphy.errors import ColladaError, ConfigurationError, InputError, OutputError
 
 __all__ = ["group", "main"]
 
@@ -56,7 +56,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
             say_findings(error.findings)
         else:
             note(f"error: {error}")
-        return EXIT_IO if isinstance(error, InputError | OutputError) else EXIT_FINDINGS
+        usage = isinstance(error, ConfigurationError | InputError | OutputError)
+        return EXIT_IO if usage else EXIT_FINDINGS
     except OSError as error:
         note(f"error: Something could not be read or written: {error.strerror or error}.")
         return EXIT_IO

@@ -18,9 +18,9 @@ __all__ = [
     "EXIT_IO",
     "note",
     "note_changes",
+    "paint",
     "say",
     "say_findings",
-    "say_report",
     "steps",
 ]
 
@@ -32,13 +32,21 @@ _COLOURS = {"error": "red", "warning": "yellow", "info": "blue", "hint": "cyan",
 _Item = TypeVar("_Item")
 
 
-def _paint(text: str, severity: str) -> str:
+def paint(text: str, severity: str) -> str:
+    """A text in the colour of a severity."""
     return click.style(text, fg=_COLOURS.get(severity), bold=severity == "error")
 
 
 def _colour() -> bool | None:
-    """None lets click decide: colours on a terminal, none in a file (https://no-color.org)."""
-    return False if os.environ.get("NO_COLOR") else None
+    """None lets click decide: colours on a terminal, none in a file.
+
+    NO_COLOR (https://no-color.org) wins over FORCE_COLOR (https://force-color.org).
+    """
+    if os.environ.get("NO_COLOR"):
+        return False
+    if os.environ.get("FORCE_COLOR"):
+        return True
+    return False if os.environ.get("TERM") == "dumb" else None
 
 
 def say(text: str) -> None:
@@ -51,19 +59,11 @@ def note(text: str) -> None:
     click.echo(text, err=True, color=_colour())
 
 
-def say_report(report: Report) -> None:
-    """A report as text."""
-    from colladaphy.validation.reporters.text import as_text
-
-    for line in as_text(report, paint=_paint):
-        say(line)
-
-
 def note_changes(report: Report, most: int | None = 3) -> None:
     """What was changed, to standard error."""
     from colladaphy.validation.reporters.text import changes
 
-    for line in changes(report, paint=_paint, most=most):
+    for line in changes(report, paint=paint, most=most):
         note(line)
 
 
@@ -75,7 +75,7 @@ def say_findings(findings: Iterable[Finding]) -> None:
     known = list(findings)
     faults = [finding for finding in known if finding.severity is Severity.ERROR]
     for finding in faults or known:
-        for line in finding_lines(finding, _paint):
+        for line in finding_lines(finding, paint):
             note(line)
 
 

@@ -1,0 +1,91 @@
+"""An excerpt of the source with a mark under what a finding is about."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from rich.cells import cell_len
+
+from colladaphy.findings import Finding
+
+__all__ = ["Excerpt", "excerpt", "wanted_lines"]
+
+_WIDTH = 96
+_LEAD = 24
+_TAG = re.compile(r"<[^\s<>/]+")
+_MOST = 6
+"""Lines of a start tag that are looked at for its attribute."""
+
+Excerpt = list[tuple[int | None, str]]
+"""Lines with their numbers; the line of the mark has none."""
+
+
+def wanted_lines(finding: Finding) -> range:
+    """The lines that an excerpt may need."""
+    if finding.line is None:
+        return range(0)
+    return range(finding.line, finding.line + (_MOST if finding.attribute else 1))
+
+
+def excerpt(finding: Finding, lines: Mapping[int, str]) -> Excerpt:
+    """The line that a finding stands at and the mark below; empty where the line is not known.
+
+    The mark is under the attribute that it is about, or under the name of the element, or, where
+    markup itself is wrong, under one character. Long lines are cut around it.
+    """
+    if finding.line is None or finding.line not in lines:
+        return []
+    line, begin, end = _span(finding, lines)
+    rows: Excerpt = []
+    for number in range(finding.line, line):
+        text = _printable(lines[number])
+        rows.append((number, text[:_WIDTH] + "…" * (len(text) > _WIDTH)))
+    text = lines[line]
+    begin = min(begin, len(text))
+    end = max(min(end, len(text)), begin + 1)
+    first = 0 if end <= _WIDTH else max(0, begin - _LEAD)
+    last = min(len(text), max(first + _WIDTH, min(end, begin + _WIDTH)))
+    before = "…" * (first > 0) + _printable(text[first:begin])
+    marked = _printable(text[begin : min(end, last)])
+    after = _printable(text[end:last]) + "…" * (last < len(text))
+    rows.append((line, (before + marked + after).rstrip()))
+    rows.append((None, " " * cell_len(before) + "^" * max(cell_len(marked), 1)))
+    return rows
+
+
+def _span(finding: Finding, lines: Mapping[int, str]) -> tuple[int, int, int]:
+    """The line of the mark, and where it begins and ends, counted from 0."""
+    assert finding.line is not None
+    text = lines[finding.line]
+    if finding.column is None:
+        begin = len(text) - len(text.lstrip())
+        return finding.line, begin, len(text.rstrip())
+    begin = finding.column - 1
+    if finding.attribute is not None and text[begin : begin + 1] == "<":
+        name = re.escape(finding.attribute.rpartition("}")[2])
+        pattern = re.compile(rf"""(?<![\w.:-])(?:[\w.-]+:)?{name}\s*=\s*(?:"[^"]*"|'[^']*')""")
+        number, start = finding.line, begin
+        while number in lines:
+            stop = _end_of_tag(lines[number], start)
+            found = pattern.search(lines[number], start, stop)
+            if found:
+                return number, found.start(), found.end()
+            if stop < len(lines[number]):
+                break
+            number, start = number + 1, 0
+    tag = _TAG.match(text, begin)
+    return finding.line, begin, tag.end() if tag else begin + 1
+
+
+def _end_of_tag(text: str, start: int) -> int:
+    """Where the start tag ends that is open at `start`; > in a value is no end of it."""
+    for found in re.finditer(r""""[^"]*"|'[^']*'|>""", text[start:]):
+        if found[0] == ">":
+            return start + found.end()
+    return len(text)
+
+
+def _printable(text: str) -> str:
+    """Tabs as spaces, and nothing that a terminal would obey."""
+    return "".join("    " if char == "\t" else char if char.isprintable() else "�" for char in text)

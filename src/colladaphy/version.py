@@ -1,0 +1,7 @@
+"""The version, for reports that name the tool that made them."""
+
+from __future__ import annotations
+
+__all__ = ["VERSION"]
+
+VERSION = "0.1.0"
