@@ -90,7 +90,7 @@ def test_the_command_line_converts_to_valid_files(
     assert run(["validate", str(target)]) == int(not colladaphy.validate(target).valid)
     assert not words_outside((corpus_dir / name).read_bytes()) - words_outside(target.read_bytes())
     before = target.read_bytes()
-    assert run(["repair", str(target)]) == 0
+    assert run(["repair", str(target), "--in-place"]) == 0
     assert target.read_bytes() == before
 
 

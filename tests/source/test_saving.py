@@ -6,6 +6,9 @@ import errno
 import io
 import os
 import stat
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -149,3 +152,23 @@ def test_a_stream_that_takes_less_than_it_is_given() -> None:
 
 def test_a_device(tmp_path: Path) -> None:
     save(b"new", "/dev/null")
+
+
+def test_what_killed_writers_left_is_swept(tmp_path: Path) -> None:
+    gone = subprocess.run([sys.executable, "-c", "import os; print(os.getpid())"],
+                          capture_output=True, text=True, check=True).stdout.strip()  # fmt: skip
+    ages = {
+        f".colladaphy-{gone}-0123456789abcdef.tmp": 120,  # of a process that is no more
+        f".colladaphy-{gone}-0123456789abcdee.tmp": 0,  # of another computer's, perhaps
+        f".colladaphy-{os.getpid()}-0123456789abcdef.tmp": 120,  # is being written
+        ".colladaphy-0123456789abcdef.tmp": 2 * 86400,
+        "mine.tmp": 2 * 86400,
+    }
+    now = time.time()
+    for name, age in ages.items():
+        (tmp_path / name).write_bytes(b"half")
+        os.utime(tmp_path / name, (now - age, now - age))
+    save(b"new", tmp_path / "a.dae")
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(
+        ["a.dae", "mine.tmp", *list(ages)[1:3]]
+    )

@@ -6,20 +6,27 @@ from typing import TYPE_CHECKING, Literal
 
 import click
 
-from colladaphy.cli.console import note_changes
+from colladaphy.cli.batch import run_jobs
+from colladaphy.cli.console import EXIT_FINDINGS, note, note_changes
 from colladaphy.cli.files import convention_option, limits_option, refuse_same, source_of, target_of
-from colladaphy.cli.reporting import write_report
+from colladaphy.cli.outputs import Job, jobs_of, output_options
+from colladaphy.cli.reporting import write_reports
 
 if TYPE_CHECKING:
+    from lxml import etree
+
     from colladaphy.conform.exporting import Target
+    from colladaphy.findings import Report
+    from colladaphy.source import Parsed
     from colladaphy.source.limits import Limits
+    from colladaphy.validation.companions import Render
+    from colladaphy.validation.mending import Mended
 
 __all__ = ["command"]
 
 
 @click.command("convert")
-@click.argument("source", metavar="IN")
-@click.argument("target", metavar="OUT")
+@output_options
 @click.option("--report", "report_file", metavar="FILE", help="Write what was changed to FILE.")
 @click.option(
     "--for",
@@ -29,36 +36,88 @@ __all__ = ["command"]
     show_default=True,
     help="Who will read it: readers of COLLADA 1.5, of 1.4.1, or Bullet's converter (1.4.1).",
 )
+@click.option("--strict", is_flag=True, help="Exit with 1 where bodies of IN are lost.")
 @convention_option
 @limits_option
 def command(
-    source: str,
-    target: str,
+    names: tuple[str, ...],
+    output: str | None,
+    in_place: bool,
+    no_backup: bool,
+    force: bool,
     report_file: str | None,
     reader: Target | Literal["collada"],
+    strict: bool,
     convention: str,
     limits: Limits | None,
-) -> None:
-    """Read a document of any version, mend it, and write it as valid COLLADA.
+) -> int:
+    """Read documents of any version, mend them, and write them as valid COLLADA.
 
-    What was changed goes to standard error, or to the FILE of --report (as JSON where its name
-    ends in .json). IN is never changed, and OUT only as a whole.
+    Several IN, or a folder, are written into the folder that -o names. OUT without -o is for one
+    IN, and must not exist. Files that IN refers to, such as models and images, are taken along
+    to another folder. What was changed goes to standard error, or to the FILE of --report (as
+    JSON where its name ends in .json). An OUT is written as a whole or not at all.
     """
-    from colladaphy.validation.mending import mend
-
+    jobs = jobs_of(names, output, in_place=in_place, force=force)
     if report_file is not None:
-        inputs = () if source == "-" else (source,)
-        refuse_same("--report", report_file, (*inputs, target))
-    mended = mend(source_of(source), convention=convention, limits=limits)
-    report = mended.report
-    data = None
-    if reader != "collada":
+        files = [name for job in jobs for name in (job.source, job.target) if name and name != "-"]
+        refuse_same("--report", report_file, files)
+    reports: list[Report] = []
+
+    def work(job: Job) -> int:
+        from colladaphy.validation.mending import backup, mend
+
+        mended = mend(source_of(job.source), convention=convention, limits=limits)
+        report = mended.report
+        data = None
+        if reader != "collada":
+            from colladaphy.conform.exporting import export
+
+            data, changes = export(mended.tree, reader)
+            report.extend(changes)
+        assert job.target is not None
+        if not job.in_place or report.findings:
+            if job.in_place and not no_backup:
+                backup(job.target)
+            job.prepare()
+            mended.save(target_of(job.target), data, _render(convention, reader), force=force)
+        reports.append(report)
+        if report_file is None and report.findings:
+            note_changes(report)
+        return _say_losses(mended, job, convention, strict)
+
+    try:
+        return run_jobs(jobs, work, "written")
+    finally:
+        if report_file is not None:
+            write_reports(reports, report_file)
+
+
+def _render(convention: str, reader: Target | Literal["collada"]) -> Render:
+    """What becomes of documents that IN refers to: the same as of IN."""
+
+    def render(parsed: Parsed) -> tuple[etree._ElementTree, bytes]:
+        from colladaphy.conform import conform
         from colladaphy.conform.exporting import export
+        from colladaphy.validation.mending import serialise
 
-        data, changes = export(mended.tree, reader)
-        report.extend(changes)
-    mended.save(target_of(target), data)
-    if report_file is not None:
-        write_report(report, report_file)
-    elif report.findings:
-        note_changes(report)
+        tree, _ = conform(parsed.tree, file=parsed.file, convention=convention)
+        data = serialise(tree) if reader == "collada" else export(tree, reader)[0]
+        return tree, data
+
+    return render
+
+
+def _say_losses(mended: Mended, job: Job, convention: str, strict: bool) -> int:
+    """Say in a last line that bodies were lost, with the exit code for it."""
+    if not mended.has_bodies:
+        return 0
+    there, lost = mended.bodies(convention)
+    if there and not lost:
+        return 0
+    if not there:
+        why = f"none of its {lost} bodies can be loaded" if lost else "no scene instances a body"
+        note(f"{job.source}: {'error' if lost else 'warning'}: The World is empty: {why}.")
+        return EXIT_FINDINGS if lost or strict else 0
+    note(f"{job.source}: warning: {lost} of {there + lost} bodies cannot be loaded.")
+    return EXIT_FINDINGS if strict else 0

@@ -93,8 +93,11 @@ def _world(world: dict[str, Any]) -> Iterator[str]:
     yield f"  joints: {_list(world['joints'])}"
     yield f"  materials: {', '.join(world['materials']) or 'none'}"
     yield f"  skipped bodies: {len(world['skipped_bodies'])}"
+    yield f"  skipped shapes: {len(world['skipped_shapes'])}"
     yield f"  skipped constraints: {len(world['skipped_constraints'])}"
-    for skipped in (*world["skipped_bodies"], *world["skipped_constraints"]):
+    for skipped in (
+        *world["skipped_bodies"], *world["skipped_shapes"], *world["skipped_constraints"]
+    ):  # fmt: skip
         place = f"line {skipped['line']}: " if skipped["line"] else ""
         yield f"    {place}{skipped['message']} [{skipped['code']}]"
 

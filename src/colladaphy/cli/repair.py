@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import click
 
+from colladaphy.cli.batch import run_jobs
 from colladaphy.cli.console import note, note_changes, say
 from colladaphy.cli.files import convention_option, limits_option, source_of, target_of
+from colladaphy.cli.outputs import Job, jobs_of, output_options
 
 if TYPE_CHECKING:
     from colladaphy.source.limits import Limits
@@ -16,8 +18,7 @@ __all__ = ["command"]
 
 
 @click.command("repair")
-@click.argument("source", metavar="IN")
-@click.argument("target", metavar="[OUT]", required=False)
+@output_options
 @click.option("--dry-run", is_flag=True, help="Only say what would be changed.")
 @click.option(
     "--only", "codes", multiple=True, metavar="CODE", help="Only these changes; may be repeated."
@@ -26,31 +27,48 @@ __all__ = ["command"]
 @convention_option
 @limits_option
 def command(
-    source: str,
-    target: str | None,
+    names: tuple[str, ...],
+    output: str | None,
+    in_place: bool,
+    no_backup: bool,
+    force: bool,
     dry_run: bool,
     codes: tuple[str, ...],
     diff: bool,
     convention: str,
     limits: Limits | None,
-) -> None:
-    """Mend the document IN, write it to OUT, and say what was changed.
+) -> int:
+    """Mend documents, write them to OUT or in their place, and say what was changed.
 
-    Without OUT, IN itself is replaced. Nothing is written with --dry-run, and nothing when the
-    document cannot be made valid; then what is missing is listed, and the exit code is 1.
+    Several IN, or a folder, are written into the folder that -o names. OUT without -o is for one
+    IN, and must not exist. With --in-place, IN itself is replaced, and IN.bak is what it was.
+    Nothing is written with --dry-run, and nothing when a document cannot be made valid; then
+    what is missing is listed, and the exit code is 1.
     """
-    from colladaphy.validation.mending import mend, unified_diff
-
     _check_codes(codes)
-    mended = mend(source_of(source), convention=convention, limits=limits, only=codes or None)
-    note_changes(mended.report, None if dry_run else 3)
-    if diff:
-        for line in unified_diff(mended):
-            say(line)
-    if not dry_run:
-        mended.save(target_of(target if target is not None else source))
-    elif not diff:
+    jobs = jobs_of(names, output, in_place=in_place, force=force, writes=not dry_run)
+
+    def work(job: Job) -> int:
+        from colladaphy.validation.mending import backup, mend, unified_diff
+
+        mended = mend(
+            source_of(job.source), convention=convention, limits=limits, only=codes or None
+        )
+        if job.target is not None and (not job.in_place or mended.report.findings):
+            if job.in_place and not no_backup:
+                backup(job.target)
+            job.prepare()
+            mended.save(target_of(job.target), force=force)
+        note_changes(mended.report, None if dry_run else 3)
+        if diff:
+            for line in unified_diff(mended):
+                say(line)
+        return 0
+
+    code = run_jobs(jobs, work, "looked at" if dry_run else "mended")
+    if dry_run and not diff:
         note("Nothing was written (--dry-run).")
+    return code
 
 
 def _check_codes(codes: tuple[str, ...]) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import logging
 
+from lxml import etree
+
 from colladaphy.conform import conform
 from colladaphy.document.document import Document
 from colladaphy.document.writing import Output, document_bytes, write_world
@@ -15,7 +17,7 @@ from colladaphy.mapper import WriteOptions
 from colladaphy.source import Limits, Loaded, Parsed, Source, load, parse_loaded
 from colladaphy.world import World
 
-__all__ = ["document_bytes", "document_of", "read", "write"]
+__all__ = ["document_bytes", "document_of", "document_of_mended", "read", "write"]
 
 _log = logging.getLogger("colladaphy.document")
 
@@ -42,6 +44,19 @@ def read(
 def document_of(parsed: Parsed, *, repair: bool, convention: str = "auto") -> Document:
     """The Document of a file that is parsed already; see `read`."""
     resource = _parsed(parsed, None, repair=repair, convention=convention, family={})
+    return Document(resource, archive=parsed.archive, member=parsed.member)
+
+
+def document_of_mended(
+    parsed: Parsed, tree: etree._ElementTree, *, convention: str = "auto"
+) -> Document:
+    """The Document of what `conform` made of a file; see `read`."""
+
+    def opener(file: str) -> Resource:
+        other = parsed.load_relative(file)
+        return _read(other, repair=True, convention=convention, family={})
+
+    resource = Resource(tree, file=parsed.file, opener=opener, tolerant=True, member=parsed.member)
     return Document(resource, archive=parsed.archive, member=parsed.member)
 
 

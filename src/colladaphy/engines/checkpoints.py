@@ -32,7 +32,7 @@ __all__ = ["Checkpoints", "Found", "open_checkpoint", "read_checkpoint"]
 
 _PREFIX = "checkpoint-"
 _NAME = re.compile(re.escape(_PREFIX) + r"(\d+)\.(?:dae|zae)")
-_LEFTOVER = re.compile(r"\.colladaphy-[0-9a-f]+\.tmp")
+_LEFTOVER = re.compile(r"\.colladaphy-(\d+-)?[0-9a-f]+\.tmp")
 _ABANDONED = 600.0  # seconds after which a temporary file is nobody's
 
 

@@ -27,16 +27,23 @@ SEVERAL_GRAVITIES = Rule(
 EMPTY_SHAPE = Rule(
     "load-empty-shape",
     _WARNING,
-    "A shape has no volume, so its body cannot be represented and is skipped.",
+    "A shape has no volume, so it cannot be represented.",
     "Give all lengths and radii a value greater than zero.",
     "thesis 6.2.2",
 )
 NO_GEOMETRY = Rule(
     "load-no-geometry",
     _WARNING,
-    "A body's geometry cannot be represented, and the body is skipped.",
+    "The geometry of a shape cannot be represented.",
     "Rigid bodies need a mesh of polygons that encloses a volume, or a primitive.",
     "thesis 4.2",
+)
+BODY_SKIPPED = Rule(
+    "load-body-skipped",
+    _WARNING,
+    "None of the shapes of a body can be represented, and the body is skipped.",
+    "Correct its shapes; a body that states its mass and inertia needs none.",
+    "thesis 6.2.2",
 )
 NO_BODY = Rule(
     "load-no-body",
@@ -223,6 +230,7 @@ RULES = (
     SEVERAL_GRAVITIES,
     EMPTY_SHAPE,
     NO_GEOMETRY,
+    BODY_SKIPPED,
     NO_BODY,
     BAD_VALUE,
     CONVERSION,

@@ -8,6 +8,7 @@ __all__ = ["RULES", "UNREACHABLE"]
 
 _ERROR = Severity.ERROR
 _WARNING = Severity.WARNING
+_INFO = Severity.INFO
 
 MISSING = Rule(
     "io-missing",
@@ -76,6 +77,17 @@ REFERENCE_MISSING = Rule(
     _WARNING,
     "A file that the document refers to does not exist.",
     "Put the file where the reference says, or correct the reference.",
+)
+COMPANION_TAKEN = Rule(
+    "io-companion-taken",
+    _INFO,
+    "A file that the document refers to was written with it.",
+)
+COMPANION_LEFT = Rule(
+    "io-companion-left",
+    _WARNING,
+    "A file that the document refers to was not written with it.",
+    "Copy it by hand, or let it be replaced with --force.",
 )
 OUTPUT_FAILED = Rule(
     "io-output-failed",
@@ -192,6 +204,8 @@ RULES = (
     ARCHIVE_ROOT,
     REFERENCE_REFUSED,
     REFERENCE_MISSING,
+    COMPANION_TAKEN,
+    COMPANION_LEFT,
     OUTPUT_FAILED,
     EMPTY,
     NOT_XML,

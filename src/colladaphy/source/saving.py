@@ -5,8 +5,10 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import re
 import secrets
 import stat
+import time
 from pathlib import Path
 from typing import BinaryIO
 
@@ -18,6 +20,11 @@ __all__ = ["Target", "save"]
 
 #: Where can be written: a path, or a binary file object.
 Target = str | os.PathLike[str] | BinaryIO
+
+_TEMPORARY = re.compile(r"\.colladaphy-(?:(\d{1,9})-)?[0-9a-f]{16}\.tmp")
+_FRESH = 60.0
+"""Seconds for which a file is left alone: of another computer, no process is known here."""
+_OLD = 86400.0
 
 _NEXT = {
     errno.ENOENT: ("the folder does not exist", "Create the folder first."),
@@ -63,7 +70,7 @@ def _to_path(data: bytes, path: Path) -> None:
             return
         if not os.access(path, os.W_OK):
             raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
-    temporary = path.with_name(f".colladaphy-{secrets.token_hex(8)}.tmp")
+    temporary = path.with_name(f".colladaphy-{os.getpid()}-{secrets.token_hex(8)}.tmp")
     flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | getattr(os, "O_BINARY", 0)
     descriptor = os.open(temporary, flags, 0o666)
     try:
@@ -79,6 +86,36 @@ def _to_path(data: bytes, path: Path) -> None:
             temporary.unlink()
         raise
     _sync_folder(path.parent)
+    _sweep(path.parent)
+
+
+def _sweep(folder: Path) -> None:
+    """Remove what writers left that were killed: theirs are the files whose process is gone.
+
+    Where it cannot be known (another computer's, a number that is in use again), a file has to be
+    a day old.
+    """
+    with contextlib.suppress(OSError):
+        for entry in os.scandir(folder):
+            found = _TEMPORARY.fullmatch(entry.name)
+            if found is None:
+                continue
+            with contextlib.suppress(OSError):
+                age = time.time() - entry.stat(follow_symlinks=False).st_mtime
+                if age > _OLD or (age > _FRESH and not _is_alive(int(found[1] or 0))):
+                    os.unlink(entry.path)  # noqa: PTH108 (an entry of scandir)
+
+
+def _is_alive(process: int) -> bool:
+    if process <= 0 or os.name != "posix":
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def _sync_folder(folder: Path) -> None:

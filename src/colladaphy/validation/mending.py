@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 
 from lxml import etree
 
@@ -11,8 +14,9 @@ from colladaphy.errors import SchemaError
 from colladaphy.findings import Report
 from colladaphy.gate import gate
 from colladaphy.source import Limits, Parsed, Source, Target, packed_for, parse, save
+from colladaphy.validation.companions import Render, companions_of
 
-__all__ = ["Mended", "mend", "unified_diff"]
+__all__ = ["Mended", "backup", "mend", "serialise", "unified_diff"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,15 +27,63 @@ class Mended:
     tree: etree._ElementTree
     report: Report
 
-    def save(self, target: Target, data: bytes | None = None) -> None:
-        """Write the document atomically, or `data` in its stead.
+    def save(
+        self,
+        target: Target,
+        data: bytes | None = None,
+        render: Render | None = None,
+        *,
+        force: bool = False,
+    ) -> None:
+        """Write the document atomically, or `data` in its stead, with the files it refers to.
 
         An archive's other files are kept where the target's name ends in .zae, and where the
-        target is that archive itself, whatever its name.
+        target is that archive itself, whatever its name. Elsewhere, what the document refers to
+        is written beside it, documents as `render` makes them; files that exist are only replaced
+        by `force`. What was taken along, and what was not, is added to the report.
         """
         if data is None:
             data = serialise(self.tree)
-        save(packed_for(target, data, self.parsed.archive, self.parsed.member), target)
+        others = None
+        if isinstance(target, str) and not self._is_home(target):
+            others = companions_of(self.parsed, self.tree, render or _mended)
+            self.report.extend(others.findings)
+        packed = packed_for(target, data, self.parsed.archive, self.parsed.member,
+                            {} if others is None else others.files)  # fmt: skip
+        save(packed, target)
+        if others is not None and packed is data:
+            assert isinstance(target, str)
+            self.report.extend(others.save_beside(target, force=force))
+
+    def _is_home(self, target: str) -> bool:
+        """Whether what the document refers to is where it was, as seen from the target."""
+        if self.parsed.archive is not None:
+            file = self.parsed.archive.file
+            same = file is not None and os.path.realpath(file) == os.path.realpath(target)
+            return same or target.lower().endswith(".zae")
+        base = self.parsed.base
+        here = Path(os.path.realpath(target)).parent
+        if target.lower().endswith(".zae"):
+            return base is None
+        return base is None or Path(os.path.realpath(base)) == here
+
+    @property
+    def has_bodies(self) -> bool:
+        """Whether the file has, or had, instances of rigid bodies."""
+        return any(
+            next(tree.iter("{*}instance_rigid_body"), None) is not None
+            for tree in (self.tree, self.parsed.tree)
+        )
+
+    def bodies(self, convention: str = "auto") -> tuple[int, int]:
+        """How many bodies the World of the document has, and how many it should have but lacks."""
+        from colladaphy.document.api import document_of_mended
+        from colladaphy.validation.statistics import skipped_bodies
+
+        document = document_of_mended(self.parsed, self.tree, convention=convention)
+        world = document.load()
+        lost = skipped_bodies([*self.report, *document.report])
+        return len(world.bodies), len(lost)
 
 
 def mend(
@@ -58,6 +110,24 @@ def mend(
     if faults.findings:
         raise SchemaError(faults.findings)
     return Mended(parsed, tree, report)
+
+
+def backup(file: str) -> Path:
+    """Keep a copy of a file beside it under a name that is free: ``.bak``, ``.bak2``, …"""
+    path, number = Path(f"{file}.bak"), 2
+    while path.exists():
+        path, number = Path(f"{file}.bak{number}"), number + 1
+    save(Path(file).read_bytes(), str(path))
+    shutil.copymode(file, path)
+    return path
+
+
+def _mended(parsed: Parsed) -> tuple[etree._ElementTree, bytes]:
+    """A document that another one refers to, mended as that one was."""
+    from colladaphy.conform import conform
+
+    tree, _ = conform(parsed.tree, file=parsed.file)
+    return tree, serialise(tree)
 
 
 def serialise(tree: etree._ElementTree) -> bytes:

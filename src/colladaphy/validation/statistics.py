@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from lxml import etree
 
+from colladaphy.conform import rules as conform_rules
 from colladaphy.errors import ColladaError
 from colladaphy.findings import Finding
+from colladaphy.links import rules as link_rules
 from colladaphy.mapper import rules as mapper_rules
 from colladaphy.source import Limits, Parsed, Source, parse
 
@@ -16,7 +19,7 @@ if TYPE_CHECKING:
     from colladaphy.document import Document, Scene
     from colladaphy.world import World
 
-__all__ = ["describe"]
+__all__ = ["describe", "skipped_bodies"]
 
 _SHAPES = frozenset(
     {
@@ -36,10 +39,10 @@ _COUNTED = (
     "instance_rigid_body",
     "instance_rigid_constraint",
 )
-_SKIPPED = frozenset(
-    rule.code
-    for rule in (mapper_rules.EMPTY_SHAPE, mapper_rules.NO_GEOMETRY, mapper_rules.BAD_VALUE)
-)
+_SKIPPED = frozenset(rule.code for rule in (mapper_rules.BODY_SKIPPED, mapper_rules.BAD_VALUE))
+_SET_ASIDE = frozenset({conform_rules.DANGLING_INSTANCE.code, link_rules.MISSING.code,
+                        link_rules.WRONG_TYPE.code, link_rules.CYCLE.code})  # fmt: skip
+_LEFT_OUT = frozenset(rule.code for rule in (mapper_rules.EMPTY_SHAPE, mapper_rules.NO_GEOMETRY))
 _UNLINKED = frozenset(
     rule.code
     for rule in (
@@ -63,7 +66,7 @@ def describe(
     """
     from colladaphy.conform import detect_version
 
-    parsed = parse(source, limits or Limits())
+    parsed = parse(source, limits or Limits(), mend=True)
     root = parsed.tree.getroot()
     asset = _child(root, "asset")
     unit = _child(asset, "unit")
@@ -167,7 +170,7 @@ def _world(world: World, findings: list[Finding]) -> dict[str, Any]:
     bodies = Counter(Kind(int(kind)).name.lower() for kind in world.kinds)
     members = Counter(Kind(int(kind)).name.lower() for kind in world.member_columns.kinds)
     joints = Counter(joint.kind.name.lower() for joint in world.joints)
-    skipped = [finding for finding in findings if finding.code in _SKIPPED]
+    skipped = skipped_bodies(findings)
     unlinked = [finding for finding in findings if finding.code in _UNLINKED]
     return {
         "bodies": len(world.bodies),
@@ -178,8 +181,19 @@ def _world(world: World, findings: list[Finding]) -> dict[str, Any]:
         "joints": dict(sorted(joints.items())),
         "materials": sorted(material.name for material in world.materials),
         "skipped_bodies": [_reason(finding) for finding in skipped],
+        "skipped_shapes": [_reason(finding) for finding in findings if finding.code in _LEFT_OUT],
         "skipped_constraints": [_reason(finding) for finding in unlinked],
     }
+
+
+def skipped_bodies(findings: Iterable[Finding]) -> list[Finding]:
+    """Those findings of reading and loading that say that a body is not in the World."""
+    return [
+        finding
+        for finding in findings
+        if finding.code in _SKIPPED
+        or (finding.code in _SET_ASIDE and "instance_rigid_body" in (finding.path or ""))
+    ]
 
 
 def _reason(finding: Finding) -> dict[str, Any]:

@@ -142,6 +142,7 @@ def read_members(
         _empty_bodies(members, values, problems, left)
         for row in sorted(problems):
             _note(tables, bodies, members, row, problems[row], skipped=not left[row])
+        _note_skipped(tables, bodies, members, left)
     weightless = (members.kinds == Kind.EMPTY) & np.isnan(mass) & ~values.has_mass[owner]
     if weightless.any():
         _note_frames(tables, bodies, members, weightless)
@@ -164,6 +165,20 @@ def _empty_bodies(
             members.kinds[row], members.mesh_ids[row] = Kind.EMPTY, -1
             members.dimensions[row] = 0.0
             left[row] = True
+
+
+def _note_skipped(tables: Tables, bodies: FoundBodies, members: Members, left: Array) -> None:
+    """Note the bodies of which nothing is left, one by one."""
+    kept = np.bincount(members.owner[left], minlength=len(bodies))
+    for body in np.unique(members.owner[~left]).tolist():
+        if kept[body]:
+            continue
+        row = int(bodies.bodies[body])
+        name = tables.bodies.texts("name")[row] or tables.bodies.texts("sid")[row] or "?"
+        home = tables.pool.resources[int(bodies.homes[body])]
+        ordinal = int(tables.body_instances.ordinals[bodies.rows[body]])
+        message = f"The body {name!r} is skipped: none of its shapes can be represented."
+        tables.resource.note(rules.BODY_SKIPPED, ordinal, message, home=home)
 
 
 def _note_frames(tables: Tables, bodies: FoundBodies, members: Members, weightless: Array) -> None:
