@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from colladaphy.findings import Finding
 from colladaphy.validation.checking import Checked
 from colladaphy.validation.reporters.grouping import grouped
-from colladaphy.validation.reporters.presentation import Paint, Presentation
+from colladaphy.validation.reporters.presentation import Paint, Presentation, printable
 from colladaphy.validation.reporters.totals import Totals, counted, hidden
 
 __all__ = ["closing", "head", "render", "verdict"]
@@ -25,8 +25,8 @@ def render(results: Iterable[Checked], presentation: Presentation) -> Iterator[s
                 yield head(finding, result, presentation.paint)
             if group.rest:
                 code = group.rest[0].code
-                yield f"{result.report.file}: {group.more()} [{code}]"
-        if result.report.findings or not presentation.quiet:
+                yield f"{printable(result.report.file or '-')}: {group.more()} [{code}]"
+        if not presentation.quiet:
             yield verdict(result, presentation.paint)
     yield from closing(totals, presentation)
 
@@ -37,8 +37,8 @@ def head(finding: Finding, result: Checked, paint: Paint) -> str:
     place = ":".join(str(part) for part in (file, finding.line, finding.column) if part)
     severity = paint(str(finding.severity), str(finding.severity))
     mark = ", mendable" if finding.repair is not None else ""
-    message = " ".join(finding.message.split())
-    return f"{place}: {severity}: {message} [{finding.code}{mark}]"
+    message = printable(" ".join(finding.message.split()))
+    return f"{printable(place)}: {severity}: {message} [{finding.code}{mark}]"
 
 
 def verdict(result: Checked, paint: Paint) -> str:
@@ -51,7 +51,7 @@ def verdict(result: Checked, paint: Paint) -> str:
         state = paint("valid", "valid")
     else:
         state = paint("not valid", "error")
-    return f"{result.report.file}: {state}" + (f" ({said})" if said else "")
+    return f"{printable(result.report.file or '-')}: {state}" + (f" ({said})" if said else "")
 
 
 def closing(totals: Totals, presentation: Presentation) -> Iterator[str]:

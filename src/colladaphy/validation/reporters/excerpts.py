@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from rich.cells import cell_len
 
 from colladaphy.findings import Finding
+from colladaphy.validation.reporters.presentation import printable
 
 __all__ = ["Excerpt", "excerpt", "wanted_lines"]
 
@@ -39,16 +40,16 @@ def excerpt(finding: Finding, lines: Mapping[int, str]) -> Excerpt:
     line, begin, end = _span(finding, lines)
     rows: Excerpt = []
     for number in range(finding.line, line):
-        text = _printable(lines[number])
+        text = printable(lines[number])
         rows.append((number, text[:_WIDTH] + "…" * (len(text) > _WIDTH)))
     text = lines[line]
     begin = min(begin, len(text))
     end = max(min(end, len(text)), begin + 1)
     first = 0 if end <= _WIDTH else max(0, begin - _LEAD)
     last = min(len(text), max(first + _WIDTH, min(end, begin + _WIDTH)))
-    before = "…" * (first > 0) + _printable(text[first:begin])
-    marked = _printable(text[begin : min(end, last)])
-    after = _printable(text[end:last]) + "…" * (last < len(text))
+    before = "…" * (first > 0) + printable(text[first:begin])
+    marked = printable(text[begin : min(end, last)])
+    after = printable(text[end:last]) + "…" * (last < len(text))
     rows.append((line, (before + marked + after).rstrip()))
     rows.append((None, " " * cell_len(before) + "^" * max(cell_len(marked), 1)))
     return rows
@@ -84,8 +85,3 @@ def _end_of_tag(text: str, start: int) -> int:
         if found[0] == ">":
             return start + found.end()
     return len(text)
-
-
-def _printable(text: str) -> str:
-    """Tabs as spaces, and nothing that a terminal would obey."""
-    return "".join("    " if char == "\t" else char if char.isprintable() else "�" for char in text)

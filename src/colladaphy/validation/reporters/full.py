@@ -9,7 +9,7 @@ from colladaphy.validation.checking import Checked
 from colladaphy.validation.reporters.concise import closing, head, verdict
 from colladaphy.validation.reporters.excerpts import excerpt, wanted_lines
 from colladaphy.validation.reporters.grouping import Group, grouped
-from colladaphy.validation.reporters.presentation import Presentation
+from colladaphy.validation.reporters.presentation import Presentation, printable
 from colladaphy.validation.reporters.totals import Totals
 
 __all__ = ["render"]
@@ -29,7 +29,7 @@ def render(results: Iterable[Checked], presentation: Presentation) -> Iterator[s
         lines = _lines(result, groups, presentation)
         for group in groups:
             yield from _group(group, result, lines, presentation)
-        if result.report.findings or not presentation.quiet:
+        if not presentation.quiet:
             yield verdict(result, presentation.paint)
     yield from closing(totals, presentation)
 
@@ -62,7 +62,7 @@ def _group(
                 text = presentation.paint(text, str(finding.severity)) if marks else text
                 yield f"{shown:>{width}} | {text}".rstrip()
         for note in _notes(finding, first):
-            yield f"{'':{width}} = {note}"
+            yield f"{'':{width}} = {printable(' '.join(note.split()))}"
         yield ""
     if group.rest:
         yield f"{group.more()} [{group.rest[0].code}]"

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator
 from colladaphy.findings import Severity
 from colladaphy.validation.checking import Checked
 from colladaphy.validation.reporters.places import labelled, place_of
-from colladaphy.validation.reporters.presentation import Presentation
+from colladaphy.validation.reporters.presentation import Presentation, printable
 from colladaphy.validation.reporters.totals import Totals
 
 __all__ = ["render"]
@@ -29,12 +29,15 @@ def render(results: Iterable[Checked], _: Presentation) -> Iterator[str]:
             "col": place.column,
         }
         properties = ",".join(
-            f"{name}={_property(str(value))}" for name, value in values.items() if value is not None
+            f"{name}={_property(printable(str(value)))}"
+            for name, value in values.items()
+            if value is not None
         )
         command = _COMMANDS.get(finding.severity, "notice")
         message = labelled(finding, place)
         if finding.hint:
             message += f"\n{finding.hint}"
+        message = "\n".join(printable(line) for line in message.splitlines())
         yield f"::{command} {properties}::{_data(message)}"
     yield Totals(known).line()
 

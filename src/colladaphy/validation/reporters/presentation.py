@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from colladaphy.validation.reporters.sources import Sources
 
-__all__ = ["Paint", "Presentation", "plain"]
+__all__ = ["Paint", "Presentation", "plain", "printable"]
 
 Paint = Callable[[str, str], str]
 
@@ -15,6 +15,15 @@ Paint = Callable[[str, str], str]
 def plain(text: str, _: str) -> str:
     """A text without colour."""
     return text
+
+
+def printable(text: str) -> str:
+    """Tabs as spaces, and nothing that a terminal would obey: names and texts are of others."""
+    if text.isprintable():
+        return text
+    return "".join(
+        "    " if char == "\t" else char if char.isprintable() else "\ufffd" for char in text
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +35,7 @@ class Presentation:
     most: int | None = None
     """How many findings of a kind are shown of each file; None: all."""
     quiet: bool = False
-    """Whether files without findings and the summary are left out."""
+    """Whether only findings are shown: no line about each file, no summary."""
     statistics: bool = False
     """Whether the codes are counted in place of the findings."""
     sources: Sources = field(default_factory=Sources)
