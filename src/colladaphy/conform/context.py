@@ -14,6 +14,7 @@ from typing import cast
 from lxml import etree
 
 from colladaphy.conform.grammar import NAMESPACE, ComplexType, root_declaration, stated_type
+from colladaphy.conform.trace import Trace
 from colladaphy.findings import Finding, Rule
 
 __all__ = [
@@ -67,6 +68,7 @@ class Context:
         self.findings: list[Finding] = []
         self.origin = origin
         self.far_lines: dict[etree._Element, int] = {}
+        self.trace: Trace | None = None
         self.unplaced: set[etree._Element] = set()
         """Frames of mass that were made and do not say yet where they are."""
         self.nothing: etree._Element | None = None
@@ -92,6 +94,8 @@ class Context:
             line = self.far_lines.get(node) or line_of(node)
             node = node.getparent()
         path = None if element is None else self.path(element)
+        if self.trace is not None:
+            self.trace.note(rule.code, element)
         self.findings.append(rule.at(None, message, file=self.file, line=line, path=path))
 
     def path(self, element: etree._Element) -> str:

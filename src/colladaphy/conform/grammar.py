@@ -24,6 +24,7 @@ __all__ = [
     "Declaration",
     "Group",
     "SimpleType",
+    "all_types",
     "grammar",
     "root_declaration",
     "stated_type",
@@ -326,6 +327,19 @@ def grammar() -> dict[str, ComplexType]:
     root = reader.later("COLLADA", body)
     reader.complete()
     return {**reader.complex, "COLLADA": root}
+
+
+@cache
+def all_types() -> tuple[ComplexType, ...]:
+    """Every complex type of COLLADA 1.5, those without names too."""
+    found = dict.fromkeys(grammar().values())
+    waiting = list(found)
+    while waiting:
+        for child in waiting.pop().children.values():
+            if isinstance(child.type, ComplexType) and child.type not in found:
+                found[child.type] = None
+                waiting.append(child.type)
+    return tuple(found)
 
 
 def stated_type(

@@ -33,6 +33,7 @@ from colladaphy.conform.numerals import may_lack_digits
 from colladaphy.conform.placing import split_matrices
 from colladaphy.conform.profiles import mend_profiles
 from colladaphy.conform.scaled_nodes import apply_scales
+from colladaphy.conform.trace import Trace
 from colladaphy.conform.versions import copy_as_1_5, detect_version, note_version
 from colladaphy.conform.windings import mend_windings
 from colladaphy.findings import Finding
@@ -109,12 +110,14 @@ def conform(
     file: str | None = None,
     convention: str = "auto",
     only: Collection[str] | None = None,
+    trace: Trace | None = None,
 ) -> tuple[etree._ElementTree, list[Finding]]:
     """Schema-valid COLLADA 1.5 that means what `tree` meant, and a finding for every change.
 
     `tree` itself is not touched. `convention` names whose reading of the standard the document
     follows (see `colladaphy.conform.conventions`); "auto" finds out, "none" takes the standard's.
-    `only` limits the changes to rules of these codes. A second run changes nothing.
+    `only` limits the changes to rules of these codes. A second run changes nothing. `trace` is
+    told where the elements of the copy come from.
     """
     version = detect_version(tree)
     if version is None:
@@ -126,6 +129,9 @@ def conform(
     origin = "colladaphy-1.4" if version.startswith("1.4") else "colladaphy-repair"
     context = Context(twin.getroot(), file=file, only=only, origin=origin)
     context.far_lines = far_lines
+    if trace is not None:
+        trace.begin(twin.getroot())
+        context.trace = trace
     note_version(context, tree.getroot(), version)
     with np.errstate(all="ignore"):  # odd numbers are the file's, and end where they are checked
         _run(context, twin, version, convention)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import re
 from collections.abc import Iterator
+from functools import cache
 
 from lxml import etree
 
@@ -17,7 +18,9 @@ __all__ = [
     "drop_empty_bindings",
     "drop_empty_libraries",
     "give_geometries_content",
+    "homes_of_strays",
     "house_strays",
+    "meant_name",
     "typed_elements",
     "wrap_children",
 ]
@@ -58,13 +61,14 @@ def correct_names(context: Context) -> None:
                 continue
             if present is None:
                 present = {local(other) for other in element}
-            right = _meant(name, kind, present)
+            right = meant_name(name, kind, present)
             if right is not None and context.wants(rules.MISSPELT):
                 context.note(rules.MISSPELT, child, f"<{name}> is misspelt; is now <{right}>")
                 rename(child, right)
 
 
-def _meant(name: str, kind: ComplexType, present: set[str]) -> str | None:
+def meant_name(name: str, kind: ComplexType, present: set[str]) -> str | None:
+    """The name of a child that a misspelt one stands for, where that is free to take."""
     right = _WHOLE_WORDS.get(name)
     if right in kind.children:
         return right
@@ -136,16 +140,21 @@ def _move_up(
                 append(element, child)
 
 
-def house_strays(context: Context) -> None:
-    """What lies in the document itself but belongs in a library is put there."""
-    libraries = grammar()["COLLADA"].children
-    homes = {
+@cache
+def homes_of_strays() -> dict[str, str]:
+    """The libraries that elements belong in, by the names of these elements."""
+    return {
         declaration.name: name
-        for name, library in libraries.items()
+        for name, library in grammar()["COLLADA"].children.items()
         if isinstance(library.type, ComplexType) and name.startswith("library_")
         for declaration in library.type.children.values()
         if declaration.name not in ("asset", "extra")
     }
+
+
+def house_strays(context: Context) -> None:
+    """What lies in the document itself but belongs in a library is put there."""
+    libraries, homes = grammar()["COLLADA"].children, homes_of_strays()
     for child in list(context.root.iterchildren(tag=etree.Element)):
         name = local(child)
         if name in libraries or name not in homes or not context.wants(rules.STRAY):

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 from lxml import etree
 
+from colladaphy.conform.trace import Trace
 from colladaphy.source.copying import copy_tree
 
 __all__ = ["in_our_spelling"]
@@ -30,11 +31,18 @@ Quaternion = tuple[float, float, float, float]
 Vector = tuple[float, float, float]
 
 
-def in_our_spelling(tree: etree._ElementTree) -> etree._ElementTree | None:
-    """A copy of a tree with the thesis's spelling replaced; None where there is none of it."""
+def in_our_spelling(
+    tree: etree._ElementTree, trace: Trace | None = None
+) -> etree._ElementTree | None:
+    """A copy of a tree with the thesis's spelling replaced; None where there is none of it.
+
+    `trace` is told where the elements of the copy come from.
+    """
     if not any(_children(technique) for technique in _techniques(tree)):
         return None
     copy = copy_tree(tree)
+    if trace is not None:
+        trace.begin(copy.getroot())
     for technique in list(_techniques(copy)):
         if _children(technique):
             _rewrite(technique)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import threading
 from collections import defaultdict
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lxml import etree
@@ -52,12 +53,20 @@ def gate(tree: _ElementTree, *, fresh: bool = False) -> list[Finding]:
 
 
 def violations(
-    tree: _ElementTree, *, fresh: bool = False, places: Places | None = None
+    tree: _ElementTree,
+    *,
+    fresh: bool = False,
+    places: Places | None = None,
+    schema: etree.XMLSchema | None = None,
 ) -> list[_Found]:
-    """The deviations that `gate` makes findings of, each with its element; see there."""
+    """The deviations that `gate` makes findings of, each with its element; see there.
+
+    `schema` is that of another version, for a tree of it.
+    """
     places = places or Places(tree.getroot())
     parents = wide_parents(tree)
-    complaints = validate_in_blocks(tree, parents, _validate) if parents else _validate(tree)
+    validate = partial(_validate, schema=schema)
+    complaints = validate_in_blocks(tree, parents, validate) if parents else validate(tree)
     said = [(element, translate(code, message)) for element, code, message in complaints]
     found = [*_clean(said), *_unknown_profile(tree)]
     if said or not fresh:
@@ -66,9 +75,9 @@ def violations(
     return found
 
 
-def _validate(tree: _ElementTree) -> list[Complaint]:
+def _validate(tree: _ElementTree, schema: etree.XMLSchema | None = None) -> list[Complaint]:
     """What libxml2 says, by element."""
-    schema = compiled()
+    schema = schema or compiled()
     with _LOCK:  # the schema object keeps the log of its last run
         schema.validate(tree)
         log: Any = schema.error_log
@@ -103,8 +112,9 @@ def _duplicate_ids(tree: _ElementTree) -> list[_Found]:
     if not isinstance(ids, list) or len(set(ids)) == len(ids):
         return []
     owners: defaultdict[str, list[_Element]] = defaultdict(list)
-    technique = f"{{{COLLADA_1_5}}}technique"
-    for element in tree.iter(f"{{{COLLADA_1_5}}}*"):
+    namespace = etree.QName(tree.getroot()).namespace
+    technique = f"{{{namespace}}}technique"
+    for element in tree.iter(f"{{{namespace}}}*"):
         name = element.get("id")
         if name is not None and next(element.iterancestors(technique), None) is None:
             owners[name.strip()].append(element)

@@ -24,6 +24,7 @@ _SUBJECT = re.compile(r"^Element '([^']+)'(?:, attribute '([^']+)')?: ")
 _NAMESPACE = re.compile(r"\{([^{}]*)\}")
 _PREFIXES = {
     "http://www.collada.org/2008/03/COLLADASchema": "",
+    "http://www.collada.org/2005/11/COLLADASchema": "",
     "urn:colladaphy:pe:1": "pe:",
     "http://www.w3.org/1998/Math/MathML": "math:",
     "http://www.w3.org/XML/1998/namespace": "xml:",
@@ -42,6 +43,7 @@ _NUMBER = "a number such as 1.5, -2e3 or INF"
 _NAME = "a name (a letter or _, then letters, digits, _ or -; no spaces, slashes or colons)"
 _KINDS = {
     "float_type": _NUMBER,
+    "float": _NUMBER,
     "xs:float": _NUMBER,
     "xs:double": _NUMBER,
     "bool_type": "true or false",

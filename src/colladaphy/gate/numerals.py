@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import re
 from copy import deepcopy
-from dataclasses import replace
 
 from lxml import etree
 
 from colladaphy.findings import Finding
-from colladaphy.gate.faults import gate
+from colladaphy.gate.faults import violations
+from colladaphy.gate.messages import Violation
 
-__all__ = ["incomplete_numbers", "may_hold_incomplete_numbers"]
+__all__ = ["incomplete_numbers", "incomplete_violations", "may_hold_incomplete_numbers"]
 
 # References, comments and CDATA may stand on either side.
 _IN_BYTES = re.compile(rb"[0-9.;>\[]\0?[eE]\0?[+-]?\0?[\s<\"'&\]]")
@@ -36,7 +36,17 @@ def may_hold_incomplete_numbers(data: bytes) -> bool:
 
 
 def incomplete_numbers(tree: etree._ElementTree, data: bytes) -> list[Finding]:
-    """A finding for every such number in a tree that the gate lets pass; `data` is its source.
+    """A finding for every such number in a tree that the gate lets pass; `data` is its source."""
+    return [
+        violation.rule.at(element, violation.message)
+        for element, violation in incomplete_violations(tree, data)
+    ]
+
+
+def incomplete_violations(
+    tree: etree._ElementTree, data: bytes
+) -> list[tuple[etree._Element, Violation]]:
+    """The same, each with its element.
 
     Which texts are numbers is for the schema to say: a copy in which they are spoilt is validated.
     """
@@ -55,9 +65,10 @@ def incomplete_numbers(tree: etree._ElementTree, data: bytes) -> list[Finding]:
                 spoilt = True
     if not spoilt:
         return []
-    known = set(gate(tree))
+    twins = dict(zip(copy.iter(etree.Element), tree.iter(etree.Element), strict=True))
+    known = set(violations(tree))
     return [
-        replace(finding, message=_MARK.sub(r"\1", finding.message))
-        for finding in gate(copy)
-        if finding not in known
+        (twins[element], violation._replace(message=_MARK.sub(r"\1", violation.message)))
+        for element, violation in violations(copy)
+        if (twins[element], violation) not in known
     ]

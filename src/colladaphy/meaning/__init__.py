@@ -4,6 +4,7 @@ A rule is a small function over columns that says at which elements it is not ke
 all of them, by subject; what it does not report as an error can be loaded.
 """
 
-from colladaphy.meaning.checking import SUBJECTS, check
+from colladaphy.meaning.checking import SUBJECTS, check, hits_of
+from colladaphy.meaning.hits import Hit, findings_of
 
-__all__ = ["SUBJECTS", "check"]
+__all__ = ["SUBJECTS", "Hit", "check", "findings_of", "hits_of"]

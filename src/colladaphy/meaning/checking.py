@@ -14,7 +14,7 @@ from colladaphy.links.resource import Resource
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit, findings_of
 
-__all__ = ["SUBJECTS", "check"]
+__all__ = ["SUBJECTS", "check", "hits_of"]
 
 _PRIMITIVES = ("mesh", "convex_mesh")
 _BODIES = ("rigid_body",)
@@ -57,6 +57,13 @@ def check(resource: Resource, exists: Callable[[str], str | None] | None = None)
 
     `exists` says why a file that the document refers to cannot be had, or None if it can.
     """
+    return findings_of(resource.columns, resource.file, hits_of(resource, exists))
+
+
+def hits_of(
+    resource: Resource, exists: Callable[[str], str | None] | None = None
+) -> list[Hit | Finding]:
+    """The same, with the numbers of elements in place of their places in the file."""
     context = Context(resource, exists)
     hits: list[Hit | Finding] = []
     with np.errstate(all="ignore"):
@@ -67,4 +74,4 @@ def check(resource: Resource, exists: Callable[[str], str | None] | None = None)
             module = import_module(f"colladaphy.meaning.{subject}")
             for function in module.CHECKS:
                 hits.extend(function(context))
-    return findings_of(resource, hits)
+    return hits

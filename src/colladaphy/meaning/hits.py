@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.reading import Document
 from colladaphy.findings import Finding, Rule, Severity
-from colladaphy.links.resource import Resource
 from colladaphy_schema.rows import Column, Rows
 
 __all__ = ["Hit", "findings_of", "listed"]
@@ -31,12 +31,16 @@ class Hit:
     attribute: str | None = None
     severity: Severity | None = None
     hint: str | None = None
+    repair: str | None = None
+    """The code of the repair that mends it."""
 
 
-def findings_of(resource: Resource, hits: Sequence[Hit | Finding]) -> list[Finding]:
+def findings_of(
+    columns: Document, file: str | None, hits: Sequence[Hit | Finding]
+) -> list[Finding]:
     """Findings in the order of the document, each with line, column, path and scoped id.
 
-    Findings about what is not in the columns are passed on.
+    The document need not be valid. Findings about what is not in the columns are passed on.
     """
     others = [hit for hit in hits if isinstance(hit, Finding)]
     kept = list(dict.fromkeys(hit for hit in hits if isinstance(hit, Hit)))
@@ -46,10 +50,9 @@ def findings_of(resource: Resource, hits: Sequence[Hit | Finding]) -> list[Findi
     elements = [hit.element for hit in kept]
     related = sorted({element for hit in kept for element in hit.related})
     wanted = np.unique(np.array([*elements, *related], np.int64))
-    paths = dict(zip(wanted.tolist(), _paths(resource, wanted), strict=True))
-    columns = resource.columns
+    paths = dict(zip(wanted.tolist(), _paths(columns, wanted), strict=True))
     places = dict(zip(wanted.tolist(), columns.places.places(wanted), strict=True))
-    sids = dict(zip(wanted.tolist(), _attribute(resource, wanted, "sid"), strict=True))
+    sids = dict(zip(wanted.tolist(), _attribute(columns, wanted, "sid"), strict=True))
     made = others
     for hit in kept:
         place = places[hit.element]
@@ -59,7 +62,7 @@ def findings_of(resource: Resource, hits: Sequence[Hit | Finding]) -> list[Findi
                 severity=hit.severity or hit.rule.severity,
                 stage=hit.rule.stage,
                 message=hit.message,
-                file=resource.file,
+                file=file,
                 line=place.line,
                 column=place.column,
                 path=paths[hit.element],
@@ -68,22 +71,22 @@ def findings_of(resource: Resource, hits: Sequence[Hit | Finding]) -> list[Findi
                 attribute=hit.attribute,
                 sid=sids[hit.element],
                 related=tuple((paths[other], places[other].line) for other in hit.related),
+                repair=hit.repair,
             )
         )
     return made
 
 
-def _attribute(resource: Resource, elements: Array, name: str) -> list[str | None]:
+def _attribute(columns: Document, elements: Array, name: str) -> list[str | None]:
     column: Column[Any] = Column(name, "attribute", "token", optional=True)
     column.name = name
-    rows = Rows(len(elements), origin=resource.columns, ordinals=elements.astype(np.int32))
-    found: list[str | None] = resource.columns.column(rows, column)
+    rows = Rows(len(elements), origin=columns, ordinals=elements.astype(np.int32))
+    found: list[str | None] = columns.column(rows, column)
     return found
 
 
-def _paths(resource: Resource, elements: Array) -> list[str]:
+def _paths(columns: Document, elements: Array) -> list[str]:
     """The paths of elements, as `colladaphy.findings.element_path` has them, in linear time."""
-    columns = resource.columns
     parent = columns.index.parent
     needed = np.zeros(len(parent), np.bool_)
     current = elements

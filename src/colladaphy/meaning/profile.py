@@ -80,17 +80,21 @@ def places(context: Context) -> Iterator[Hit]:
 
 def namespaces(context: Context) -> Iterator[Finding]:
     """Techniques of the profile with elements of other namespaces."""
-    if not context.resource.has_other_spelling:
-        return
-    for technique in context.resource.tree.iter("{*}technique"):
+    if context.resource.has_other_spelling:
+        for child, message in strangers(context.resource.tree):
+            yield profile_rules.NAMESPACE.at(child, message, file=context.resource.file)
+
+
+def strangers(tree: etree._ElementTree) -> Iterator[tuple[etree._Element, str]]:
+    """Elements of other namespaces in techniques of the profile, and what to say of them."""
+    for technique in tree.iter("{*}technique"):
         if technique.get("profile") != "pe":
             continue
         for child in technique.iterchildren(etree.Element):
             name: Any = etree.QName(child)
             # Those of no namespace, or of COLLADA's, are the thesis's spelling.
             if name.namespace not in (None, PE, COLLADA):
-                message = f"<{name.localname}> is of the namespace {name.namespace!r}."
-                yield profile_rules.NAMESPACE.at(child, message, file=context.resource.file)
+                yield child, f"<{name.localname}> is of the namespace {name.namespace!r}."
 
 
 def numbers(context: Context) -> Iterator[Hit]:

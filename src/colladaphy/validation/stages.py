@@ -1,4 +1,4 @@
-"""The stages of a check: io, xml, schema, meaning. The first that fails is the last that runs."""
+"""The stages of a check: io, xml, schema, meaning. Each is run on what the one before leaves."""
 
 from __future__ import annotations
 
@@ -8,17 +8,23 @@ from typing import TYPE_CHECKING
 from colladaphy.errors import DocumentError, InputError, XmlError
 from colladaphy.findings import Report, Severity, unchanging
 from colladaphy.gate import accepts, gate
-from colladaphy.gate.numerals import incomplete_numbers
+from colladaphy.gate.faults import violations
+from colladaphy.gate.messages import Violation
+from colladaphy.gate.numerals import incomplete_violations
 from colladaphy.links import rules as link_rules
 from colladaphy.links.resource import Resource
 from colladaphy.source import Limits, Loaded, Source, load, parse_loaded
 from colladaphy.source import rules as source_rules
+from colladaphy.source.mending import mend_text
 from colladaphy.source.places import locate
+from colladaphy.source.xml import COLLADA_1_5, root_start
 from colladaphy.validation.availability import availability
 from colladaphy.validation.options import Options
 
 if TYPE_CHECKING:
     from lxml import etree
+
+    from colladaphy.validation.behind import Came
 
 __all__ = ["validate"]
 
@@ -41,8 +47,9 @@ def validate(
 ) -> Report:
     """Check a document and report everything that is wrong with it.
 
-    Bad content is reported, never raised. InputError only where there is nothing to read: a
-    missing file, a folder, no permission.
+    What stands behind a fault is looked at in a copy that is mended; findings are about the
+    document as it came. Bad content is reported, never raised. InputError only where there is
+    nothing to read: a missing file, a folder, no permission.
     """
     limits = limits or Limits()
     options = options or Options()
@@ -56,37 +63,93 @@ def validate(
     report = Report(loaded.file)
     if len(loaded.data) >= _LARGE and accepts(loaded.data, limits):
         # Nothing is wrong with it up to here, and no tree is needed to know it.
-        _check_meaning(report, loaded, None)
+        _check_valid(report, loaded, None)
     else:
         try:
-            parsed = parse_loaded(loaded)
+            tree = parse_loaded(loaded).tree
         except XmlError as error:
             report.extend(error.findings)
-            return report
-        report.extend(gate(parsed.tree))
-        report.extend(incomplete_numbers(parsed.tree, loaded.data))
-        if report.valid:
-            _check_meaning(report, loaded, parsed.tree)
+            again = _readable(loaded, report)
+            if again is None:
+                return report
+            loaded, tree = again
+        deviations = _deviations(tree, loaded.data)
+        if deviations == []:
+            _check_valid(report, loaded, tree)
+        else:
+            from colladaphy.validation.behind import check_behind
+
+            with unchanging():
+                family: dict[str, Resource] = {}
+                report.extend(check_behind(_came(loaded, tree, family), deviations, options))
+                _check_others(report, loaded, family)
     _locate(report, loaded.data)
     return report
 
 
-def _check_meaning(report: Report, loaded: Loaded, tree: etree._ElementTree | None) -> None:
-    from colladaphy.meaning import check
+def _readable(loaded: Loaded, report: Report) -> tuple[Loaded, etree._ElementTree] | None:
+    """A document that is no XML, as it is after its text is mended; None where it stays none."""
+    data, changes = mend_text(loaded.data, root_start(loaded.data), loaded.file)
+    if not changes:
+        return None
+    again = replace(loaded, data=data)
+    try:
+        tree = parse_loaded(again).tree
+    except XmlError:
+        return None
+    report.findings = [replace(finding, repair=changes[0].code) for finding in report.findings]
+    return again, tree
+
+
+def _deviations(
+    tree: etree._ElementTree, data: bytes
+) -> list[tuple[etree._Element, Violation]] | None:
+    """What libxml2 complains about; None where the document is not in the namespace of 1.5."""
+    if not tree.getroot().tag.startswith(f"{{{COLLADA_1_5}}}"):
+        return None
+    return violations(tree, fresh=True) + incomplete_violations(tree, data)
+
+
+def _check_valid(report: Report, loaded: Loaded, tree: etree._ElementTree | None) -> None:
+    from colladaphy.meaning import findings_of, hits_of
+    from colladaphy.validation.mendable import is_mendable
 
     family: dict[str, Resource] = {}
     with unchanging():
-        report.extend(check(_resource(loaded, tree, family), availability(loaded)))
-        seen = {loaded.file}
-        while others := [other for other in family.values() if other.file not in seen]:
-            for other in others:
-                seen.add(other.file)
-                # Of the documents that it leads to, only what keeps it from being loaded.
-                report.extend(
-                    finding
-                    for finding in check(other)
-                    if finding.severity is Severity.ERROR and finding.stage in ("link", "physics")
-                )
+        resource = _resource(loaded, tree, family)
+        hits = hits_of(resource, availability(loaded))
+        if resource.has_other_spelling or any(map(is_mendable, hits)):
+            from colladaphy.validation.behind import check_meaning
+
+            came = _came(loaded, resource.tree, family)
+            report.extend(check_meaning(came, resource, hits))
+        else:
+            report.extend(findings_of(resource.columns, resource.file, hits))
+        _check_others(report, loaded, family)
+
+
+def _came(loaded: Loaded, tree: etree._ElementTree, family: dict[str, Resource]) -> Came:
+    from colladaphy.validation.behind import Came
+
+    def read(shown: etree._ElementTree) -> Resource:
+        return _resource(loaded, shown, family, changed=True)
+
+    return Came(tree, loaded.data, loaded.file, read, availability(loaded))
+
+
+def _check_others(report: Report, loaded: Loaded, family: dict[str, Resource]) -> None:
+    """Of the documents that it leads to, only what keeps it from being loaded."""
+    from colladaphy.meaning import check
+
+    seen = {loaded.file}
+    while others := [other for other in family.values() if other.file not in seen]:
+        for other in others:
+            seen.add(other.file)
+            report.extend(
+                finding
+                for finding in check(other)
+                if finding.severity is Severity.ERROR and finding.stage in ("link", "physics")
+            )
 
 
 def _locate(report: Report, data: bytes) -> None:
@@ -104,15 +167,24 @@ def _locate(report: Report, data: bytes) -> None:
 
 
 def _resource(
-    loaded: Loaded, tree: etree._ElementTree | None, family: dict[str, Resource]
+    loaded: Loaded,
+    tree: etree._ElementTree | None,
+    family: dict[str, Resource],
+    *,
+    changed: bool = False,
 ) -> Resource:
-    """A document, and the way to those that it refers to, which have to be valid too."""
+    """A document, and the way to those that it refers to, which have to be valid too.
+
+    The tree is `changed` where it is not what the bytes were parsed to.
+    """
     refused: dict[str, DocumentError] = {}
 
     def opener(file: str) -> Resource:
         if file in refused:
             raise refused[file]
         other = loaded.load_relative(file)
+        if changed and other.file == loaded.file:
+            return made
         faults = [finding for finding in gate(parse_loaded(other).tree)
                   if finding.severity is Severity.ERROR]  # fmt: skip
         if faults:
@@ -121,5 +193,7 @@ def _resource(
             raise refused[file]
         return _resource(other, None, family)
 
-    return Resource(tree, loaded.data, parser=lambda: parse_loaded(loaded).tree, file=loaded.file,
+    data = None if changed else loaded.data
+    made = Resource(tree, data, parser=lambda: parse_loaded(loaded).tree, file=loaded.file,
                     report=Report(loaded.file), opener=opener, family=family)  # fmt: skip
+    return made

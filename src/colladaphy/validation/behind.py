@@ -1,0 +1,157 @@
+"""What is wrong with a document that is not valid, or not 1.5, as far as it can be read.
+
+The rules of meaning read a copy that is mended. What they find is told of the elements as they
+came, but for what the mending itself has changed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+
+from lxml import etree
+
+from colladaphy.columns.reading import Document as Columns
+from colladaphy.conform.kinds import FORM, UPGRADE
+from colladaphy.conform.versions import detect_version
+from colladaphy.findings import Finding
+from colladaphy.gate import rules
+from colladaphy.gate.faults import violations
+from colladaphy.links.resource import Resource
+from colladaphy.meaning import Hit, findings_of, hits_of
+from colladaphy.meaning.profile import strangers
+from colladaphy.meaning.profile_rules import NAMESPACE
+from colladaphy.source import COLLADA_1_4, COLLADA_1_5
+from colladaphy.validation.copies import Copy
+from colladaphy.validation.mendable import with_repairs
+from colladaphy.validation.older import violations_1_4
+from colladaphy.validation.options import Options
+from colladaphy.validation.schema_stage import Found, schema_hits, with_schema_repairs
+from colladaphy.validation.touched import touched
+
+__all__ = ["Came", "check_behind", "check_meaning"]
+
+_PLACED = frozenset(
+    {"physics-frames-apart", "physics-frames-turned", "link-not-rigid", "physics-gravity-unit",
+     "physics-gravity-axis", "asset-inner-axis", "asset-unit-name"}
+)  # fmt: skip
+"""Rules about where things stand, and how large they are."""
+_COMPARED = frozenset(
+    {"physics-inertia-size", "physics-inertia-zero", "physics-mass-zero", "physics-density-zero",
+     "physics-mass-density", "physics-mass-sum", "physics-mass-frame", "physics-hollow",
+     "physics-velocity-fixed", "physics-plane-moves", "physics-joint-fixed",
+     "physics-material-frictions", "geometry-accessor-range", "geometry-accessor-stride",
+     "geometry-index-range", "geometry-index-lacking", "geometry-primitive-count",
+     "geometry-vcount", "geometry-normal", "animation-skin-bind", "animation-skin-count",
+     "animation-skin-index", "animation-skin-joint", "animation-skin-sum",
+     "animation-morph-targets", "animation-key-count", "animation-output-width",
+     "profile-old-value", "profile-union"}
+)  # fmt: skip
+"""Rules about one element that compare it with what stands beside it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Came:
+    """A document as it came."""
+
+    tree: etree._ElementTree
+    data: bytes
+    """What the tree was parsed from."""
+    file: str | None
+    read: Callable[[etree._ElementTree], Resource]
+    """Makes a resource of a tree in the document's place."""
+    exists: Callable[[str], str | None] | None
+
+    def told(self, hits: Sequence[Hit | Finding]) -> list[Finding]:
+        """Findings about its elements."""
+        return findings_of(Columns.of(self.data, lambda: self.tree), self.file, hits)
+
+
+def check_behind(came: Came, first: Found | None, options: Options) -> list[Finding]:
+    """Everything that is wrong with a document that is not valid COLLADA 1.5.
+
+    `first` is what libxml2 says of a document of 1.5; None for another version.
+    """
+    whole = Copy.of(came.tree)
+    current = whole
+    hits: list[Hit] = []
+    if first is None:
+        hits += _version(whole, options)
+        current = whole.mended(UPGRADE, inherited=True)
+        if etree.QName(current.tree.getroot()).namespace != COLLADA_1_5:
+            return came.told(hits)
+        first = violations(current.tree)
+        own = violations_1_4(came.tree) if _is_1_4(came.tree) else None
+        if own is None:
+            hits += schema_hits(current, first)
+        else:
+            hits += [
+                Hit(said.rule, whole.by_element[element], said.message, (), said.attribute)
+                for element, said in own
+            ]
+    else:
+        hits += schema_hits(current, first)
+    start = Copy.of(current.tree)
+    form = start.mended(FORM) if first else start
+    if first and violations(form.tree):
+        return came.told(hits)  # it cannot be read
+    mended = form.upon(current)
+    hits = with_schema_repairs(hits, whole, mended)
+    shown = mended.in_our_spelling()
+    meant = _translated(hits_of(came.read(shown.tree), came.exists), shown)
+    meant += [
+        Hit(NAMESPACE, mended.by_element[element], message)
+        for element, message in strangers(mended.tree)
+        if mended.by_element[element] >= 0
+    ]
+    if first:
+        changed, moved = touched(start, form)
+        known = frozenset(current.numbers[number] for number in changed)
+        meant = [hit for hit in meant if not _is_ours(hit, known, moved, whole.parents)]
+    return came.told(hits + with_repairs(meant, whole))
+
+
+def check_meaning(came: Came, resource: Resource, hits: list[Hit | Finding]) -> list[Finding]:
+    """What is wrong with the meaning of a valid document, with the repairs that mend it."""
+    whole = Copy.of(came.tree)
+    others = [hit for hit in hits if isinstance(hit, Finding)]
+    # Where the profile is spelled otherwise, the rules have seen a copy with other elements.
+    shown = whole.in_our_spelling() if resource.has_other_spelling else whole
+    return came.told([*others, *with_repairs(_translated(hits, shown), whole)])
+
+
+def _translated(hits: Iterable[Hit | Finding], copy: Copy) -> list[Hit]:
+    """What was found in a copy, as of the elements of the document; nothing about new ones."""
+    found = []
+    for hit in hits:
+        if isinstance(hit, Hit) and (element := copy.numbers[hit.element]) >= 0:
+            related = [copy.numbers[other] for other in hit.related]
+            kept = tuple(number for number in related if number >= 0)
+            found.append(replace(hit, element=element, related=kept))
+    return found
+
+
+def _is_ours(hit: Hit, changed: frozenset[int], moved: bool, parents: dict[int, int]) -> bool:
+    """Whether the mending has a part in what a rule says."""
+    around = [hit.element, *hit.related]
+    if hit.rule.code in _COMPARED:
+        around += [(above := parents.get(hit.element, -1)), parents.get(above, -1)]
+    return not changed.isdisjoint(around) or (moved and hit.rule.code in _PLACED)
+
+
+def _is_1_4(tree: etree._ElementTree) -> bool:
+    return etree.QName(tree.getroot()).namespace == COLLADA_1_4
+
+
+def _version(whole: Copy, options: Options) -> list[Hit]:
+    """What there is to say of the namespace."""
+    namespace = etree.QName(whole.tree.getroot()).namespace
+    if namespace == COLLADA_1_4:
+        message = f"The document is COLLADA {detect_version(whole.tree)}, not 1.5."
+        severity = options.collada_14
+        hit = Hit(rules.VERSION_1_4, 0, message, severity=severity, repair="upgrade-version")
+        return [] if severity is None else [hit]
+    message = f"The root element is in the namespace {namespace!r}."
+    if not namespace:
+        message = "The root element has no namespace."
+    return [Hit(rules.WRONG_NAMESPACE, 0, message, repair="repair-namespace")]
