@@ -7,8 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from colladaphy.engines.surfaces import PairTable, used_materials
+from colladaphy.engines.surfaces import used_materials
 from colladaphy.world import World
+from colladaphy.world.pairing import PairTable
 
 share = st.floats(0, 1)
 positive = st.floats(1e-3, 1e3)
@@ -30,7 +31,7 @@ def test_the_table_is_what_the_world_says(materials: list[tuple[float, ...]],
     world.set_pair(one, two, restitution=data.draw(st.none() | share),
                    dynamic_friction=data.draw(st.none() | share))  # fmt: skip
     ids = [material.id for material in world.materials]
-    table = PairTable.of(world, ids)
+    table = PairTable.of(world.materials, ids)
     for i, first in enumerate(ids):
         for j, second in enumerate(ids):
             pair = world.pair(first, second)

@@ -33,6 +33,10 @@ box.position = (1, 2, 3)
 box.position = [1.5, 2, 3]
 box.orientation = np.array([1.0, 0, 0, 0])
 box.name = None
+box.mass = 3
+box.material = "oak"
+box.apply_force((1, 2, 3), at=[0, 0, 0])
+assert_type(box.velocity_at((1, 2, 3)), Floats)
 
 union = world.create_union(3, [sphere, box], fixed=False, position=(0, 0, 0))
 assert_type(union.members, tuple[Body, ...])
@@ -41,6 +45,10 @@ assert_type(joint, Joint)
 assert_type(world.joints[0], Joint)
 assert_type(world.joints[:], list[Joint])
 assert_type(joint.frame1, tuple[Floats, Floats])
+assert_type(joint.coordinates, Floats)
+assert_type(world.joints_by_name("hinge"), list[Joint])
+joint.angular_max = (0, 0, 2)
+joint.angular_spring = None
 
 assert_type(world.positions, Floats)
 assert_type(world.uids, NDArray[np.int64])
@@ -72,7 +80,9 @@ WRONG = {
     "world.attach_hinge_joint(None, None)": "call-arg",
     "world.destroy(3)": "arg-type",
     "world.bodies[0].position = None": "assignment",
-    "world.bodies[0].mass = 3": "misc",
+    "world.bodies[0].volume = 3": "misc",
+    "world.bodies[0].mass = '3'": "assignment",
+    "world.bodies[0].apply_force((1, 0, 0), (0, 0, 0))": "call-arg",
     "world.positions = None": "assignment",
     "world.time = '3'": "assignment",
     "world.sids = [1]": "misc",

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from colladaphy.engines.frames import ORIGIN, Pose
 from colladaphy.engines.rules import JOINT_DISPLACED, JOINT_LIMITS, JOINT_OUTSIDE, JOINT_VELOCITY
-from colladaphy.world import rotations
+from colladaphy.world import coordinates, rotations
 
 if TYPE_CHECKING:
     from colladaphy.findings import Finding
@@ -49,23 +49,7 @@ def relative(joint: Joint, one: Pose, two: Pose) -> tuple[Floats, Floats]:
 
 def angles_of(joint: Joint, turn: Floats) -> Floats:
     """Turns (3,) about x, the new y, the new z; within the limits where a full turn helps."""
-    low, high = joint.angular_min, joint.angular_max
-    moving = np.flatnonzero(low != high)
-    angles = np.zeros(3)
-    if len(moving) == 1 and not np.any(np.where(low == high, low, 0.0)):
-        i = int(moving[0])
-        angles[i] = 2.0 * np.arctan2(turn[1 + i], turn[0])
-    else:
-        m = rotations.to_matrix(turn)
-        angles[0] = np.arctan2(-m[1, 2], m[2, 2])
-        angles[1] = np.arctan2(m[0, 2], np.hypot(m[1, 2], m[2, 2]))
-        angles[2] = np.arctan2(-m[0, 1], m[0, 0])
-    full = 2.0 * np.pi
-    for i in moving.tolist():
-        angle = float(np.remainder(angles[i] + np.pi, full) - np.pi)
-        candidates = (angle, angle + full, angle - full)
-        angles[i] = next((a for a in candidates if low[i] <= a <= high[i]), angle)
-    return angles
+    return coordinates.angles_of(np.stack([joint.angular_min, joint.angular_max]), turn)
 
 
 def misfit(joint: Joint, one: Pose, two: Pose) -> tuple[float, float]:
@@ -97,12 +81,8 @@ def mismatch(joint: Joint, one: Pose, two: Pose) -> tuple[float, float]:
     turning = np.flatnonzero(joint.angular_min != joint.angular_max)
     if len(turning):
         angles = angles_of(joint, relative(joint, one, two)[1])
-        turn, axes = np.array(rotations.IDENTITY), []
-        for i in range(3):  # about x, then the new y, then the new z
-            if i in turning:
-                axes.append(rotations.rotate(turn, _UNITS[i]))
-            turn = rotations.multiply(turn, rotations.from_axis_angle(_UNITS[i], angles[i]))
-        base = np.linalg.qr(np.array(axes).T)[0]
+        axes = coordinates.turned_axes(angles)[turning]
+        base = np.linalg.qr(axes.T)[0]
         spin = spin - base @ (base.T @ spin) if len(turning) < 3 else np.zeros(3)
     return float(np.linalg.norm(drift[locked])), float(np.linalg.norm(spin))
 

@@ -130,6 +130,13 @@ STILL_VELOCITY = Rule(
     "A body that cannot move has a velocity, which the engine does not use.",
     "Let the body move, or take its velocity away.",
 )
+UNION_DIFFERS = Rule(
+    "engine-union-differs",
+    Severity.INFO,
+    "The mass, centre or inertia of a union is not that of its members together; its own is used.",
+    "If members were changed through columns, call Body.add_up of the union; else all is well.",
+    "thesis 2.1",
+)
 AWAKE = Rule(
     "engine-awake",
     Severity.INFO,
@@ -316,6 +323,7 @@ RULES = (
     SETTINGS,
     SETUP,
     STILL_VELOCITY,
+    UNION_DIFFERS,
     AWAKE,
     MATERIAL_UNUSED,
     JOINT_LIMITS,

@@ -7,8 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from colladaphy.engines.rules import AWAKE, FRICTIONS, MATERIAL_UNUSED, STILL_VELOCITY
-from colladaphy.engines.surfaces import PairTable, used_materials
+from colladaphy.engines.rules import (
+    AWAKE,
+    FRICTIONS,
+    MATERIAL_UNUSED,
+    STILL_VELOCITY,
+    UNION_DIFFERS,
+)
+from colladaphy.engines.surfaces import differing, used_materials
+from colladaphy.world.pairing import PairTable
 
 if TYPE_CHECKING:
     from colladaphy.findings import Finding
@@ -27,7 +34,7 @@ _SILENT = {
 
 
 def unused(world: World, rule: str, *, sleep: bool) -> Iterator[Finding]:
-    """Velocities of what is fixed, sleep where it is off, and values of materials.
+    """Velocities of what is fixed, sleep where it is off, masses of members, and of materials.
 
     `rule` combines the frictions of two materials.
     """
@@ -43,6 +50,10 @@ def unused(world: World, rule: str, *, sleep: bool) -> Iterator[Finding]:
         more = f" and {len(still) - _MOST} more bodies" if len(still) > _MOST else ""
         yield STILL_VELOCITY.at(message=f"The engine takes no velocity of what is fixed: {names}"
                                 f"{more}.")  # fmt: skip
+    if unions := world.differing_unions():
+        more = f" and {len(unions) - _MOST} more" if len(unions) > _MOST else ""
+        names = ", ".join(map(repr, unions[:_MOST]))
+        yield UNION_DIFFERS.at(message=f"Not the sum of their members: {names}{more}.")
     used, meets = used_materials(world)
     if not meets.any():
         return
@@ -51,7 +62,7 @@ def unused(world: World, rule: str, *, sleep: bool) -> Iterator[Finding]:
     if named:
         message = f"Of the materials the engine does not use {', '.join(named)}."
         yield MATERIAL_UNUSED.at(message=message)
-    differing = PairTable.of(world, used.tolist(), rule).differing(world, meets)
-    if differing:
-        message = f"Static friction is dropped, dynamic friction taken: {differing}."
+    pairs = differing(PairTable.of(world.materials, used.tolist(), rule), world, meets)
+    if pairs:
+        message = f"Static friction is dropped, dynamic friction taken: {pairs}."
         yield FRICTIONS.at(message=message)

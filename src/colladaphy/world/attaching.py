@@ -37,7 +37,9 @@ __all__ = [
     "attach",
     "attach_along",
     "extend_joints",
+    "limits_of",
     "one_axis",
+    "spring_of",
 ]
 
 Floats = NDArray[np.float64]
@@ -108,10 +110,10 @@ def attach(
         "bodies": roots,
         "positions": points,
         "orientations": turns,
-        "linear_limits": _limits("linear", linear_min, linear_max),
-        "angular_limits": _limits("angular", angular_min, angular_max),
-        "linear_springs": _spring("linear", linear_spring),
-        "angular_springs": _spring("angular", angular_spring),
+        "linear_limits": limits_of("linear", linear_min, linear_max),
+        "angular_limits": limits_of("angular", angular_min, angular_max),
+        "linear_springs": spring_of("linear", linear_spring),
+        "angular_springs": spring_of("angular", angular_spring),
         "enabled": values.flag("flag enabled", enabled),
         "interpenetrate": values.flag("flag interpenetrate", interpenetrate),
     }
@@ -190,7 +192,7 @@ def _pose_or_world(storage: Storage, sid: int) -> tuple[Floats, Floats]:
     return storage.pose_of(sid) if sid else (np.zeros(3), np.array(rotations.IDENTITY))
 
 
-def _limits(what: str, low: Limits, high: Limits) -> Floats:
+def limits_of(what: str, low: Limits, high: Limits) -> Floats:
     """Lower and upper limits as (2, 3)."""
     pair = values.array(low), values.array(high)
     if any(numbers is None or numbers.shape != (3,) or np.isnan(numbers).any() for numbers in pair):
@@ -198,7 +200,7 @@ def _limits(what: str, low: Limits, high: Limits) -> Floats:
     return np.array(pair, dtype=np.float64)
 
 
-def _spring(what: str, value: Spring | None) -> Floats:
+def spring_of(what: str, value: Spring | None) -> Floats:
     """Stiffness, damping and target as (3,); None is no spring."""
     if value is None:
         return np.zeros(3)

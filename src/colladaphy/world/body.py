@@ -7,16 +7,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colladaphy.world import planes, rotations, values
+from colladaphy.world import planes, pushing, rotations, values, weighing
 from colladaphy.world.kinds import Kind
-from colladaphy.world.materials import Material
+from colladaphy.world.materials import AnyMaterial, Material
 from colladaphy.world.meshes import Mesh
-from colladaphy.world.rules import ARGUMENT, BODY_GONE, KIND, UNION_MEMBERS, KindError, refuse
+from colladaphy.world.rules import KIND, MASS, UNION_MEMBERS, KindError, refuse
 from colladaphy.world.shapes import volume
 from colladaphy.world.storage import Storage
-from colladaphy.world.uniting import place
+from colladaphy.world.uniting import add_up_again, place
 
-__all__ = ["Body", "sid_of", "sid_or_world"]
+__all__ = ["Body"]
 
 Floats = NDArray[np.float64]
 
@@ -116,6 +116,11 @@ class Body:
         id = int(self._get("material_ids"))
         return None if id < 0 else self._storage.materials[id]
 
+    @material.setter
+    def material(self, value: AnyMaterial) -> None:
+        """Its surface changes (of a union, those of all members), its mass does not."""
+        weighing.set_material(self._storage, self.sid, self._storage.materials.resolve(value).id)
+
     # --- where it is
 
     @property
@@ -196,6 +201,26 @@ class Body:
             raise refuse(UNION_MEMBERS, f"{self!r} moves with its union; set it on that.")
         table.raw(column)[row] = value
 
+    def apply_force(self, force: ArrayLike, *, at: ArrayLike | None = None) -> None:
+        """Add a force (3,) to those of the next step, with its torque.
+
+        It acts at the point `at` (3,) of the world, or at the body's centre; on the union, if the
+        body is a member. Forces add up until the step, after which they are zero.
+        """
+        pushing.push(self._storage, self.sid, force, at)
+
+    def apply_impulse(self, impulse: ArrayLike, *, at: ArrayLike | None = None) -> None:
+        """Change velocities at once as a blow (3,), mass times velocity, at a point does.
+
+        `at` as for `apply_force`. Joints pass it on when the World next runs. What is fixed bears
+        it; WorldError where there is no mass, or no inertia, to be struck.
+        """
+        pushing.strike(self._storage, self.sid, impulse, at)
+
+    def velocity_at(self, point: ArrayLike) -> Floats:
+        """Velocity (3,) of the point of the body that is at `point` (3,) of the world."""
+        return _frozen(pushing.velocity_at(self._storage, self.sid, point))
+
     @property
     def sleeping(self) -> bool:
         """True if an engine has put it to sleep."""
@@ -212,10 +237,29 @@ class Body:
         """Mass, of infinite bodies 0."""
         return float(self._get("masses"))
 
+    @mass.setter
+    def mass(self, value: float) -> None:
+        """The inertia is scaled with it; members of a union get their share, a union follows."""
+        weighing.set_mass(self._storage, self.sid, value)
+
     @property
     def inertia(self) -> Floats:
         """Inertia (3, 3) about the centre of mass in the body frame."""
         return self._copy("inertias")
+
+    @inertia.setter
+    def inertia(self, value: ArrayLike) -> None:
+        """(3, 3), or its diagonal (3,)."""
+        weighing.set_inertia(self._storage, self.sid, value)
+
+    def add_up(self) -> None:
+        """Make a union the sum of its members again, after they were changed through columns.
+
+        Mass, inertia and centre follow, and those of the unions that it is in.
+        """
+        if self.kind is not Kind.UNION:
+            raise KindError(KIND.at(message=f"{self!r} is no union: it has no members."))
+        add_up_again(self._storage, self.sid)
 
     @property
     def infinite(self) -> bool:
@@ -262,6 +306,14 @@ class Body:
         """Mass over volume, 0 for a plane."""
         volume = self.volume
         return self.mass / volume if volume else 0.0
+
+    @density.setter
+    def density(self, value: float) -> None:
+        """Mass and inertia follow."""
+        volume = self.volume
+        if not volume:
+            raise KindError(KIND.at(message=f"{self!r} has no volume."))
+        self.mass = values.positive("density", value, MASS) * volume
 
     # --- its shape
 
@@ -335,18 +387,3 @@ def _frozen(array: Floats) -> Floats:
     """A copy that nobody can take for the World's own memory."""
     array.flags.writeable = False
     return array
-
-
-def sid_of(storage: Storage, body: Body) -> int:
-    """The system id of a body that is alive in a World, or WorldError."""
-    if not isinstance(body, Body):
-        raise refuse(ARGUMENT, f"{body!r} is not a body.")
-    if body._storage is not storage:
-        raise refuse(BODY_GONE, f"{body!r} belongs to another World.")
-    storage.locate(body.sid)
-    return body.sid
-
-
-def sid_or_world(storage: Storage, body: Body | None) -> int:
-    """The same, or 0 for None, which stands for the world itself."""
-    return 0 if body is None else sid_of(storage, body)

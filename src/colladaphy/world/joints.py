@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol, Unpack
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colladaphy.world import values
+from colladaphy.world import coordinates, values
 from colladaphy.world.attaching import (
     AT_CENTRE,
     FREE,
     Frame,
     JointOptions,
+    Limits,
     Spring,
     attach,
     attach_along,
+    limits_of,
     one_axis,
+    spring_of,
 )
-from colladaphy.world.body import Body, sid_or_world
+from colladaphy.world.belonging import sid_or_world
+from colladaphy.world.body import Body
 from colladaphy.world.columns import JOINT_FIELDS
 from colladaphy.world.handles import Handles
 from colladaphy.world.kinds import JointKind
-from colladaphy.world.storage import Storage
+from colladaphy.world.storage import HasStorage, Storage
 
 __all__ = [
     "JOINT_FIELDS",
@@ -69,13 +73,18 @@ class Joint:
     def _get(self, column: str) -> Any:
         return self._storage.joint_table.raw(column)[self._storage.locate_joint(self.sid)]
 
-    def _set(self, column: str, value: float) -> None:
+    def _set(self, column: str, value: Any) -> None:
         self._storage.joint_table.raw(column)[self._storage.locate_joint(self.sid)] = value
 
     def _copy(self, column: str, side: int) -> Floats:
         copied: Floats = self._get(column)[side].copy()
         copied.flags.writeable = False
         return copied
+
+    def _set_limits(self, what: str, side: int, value: Limits) -> None:
+        pair: list[Limits] = list(self._get(f"{what}_limits"))
+        pair[side] = value
+        self._set(f"{what}_limits", limits_of(what, *pair))
 
     def _body(self, side: int) -> Body | None:
         sid = int(self._get("bodies")[side])
@@ -129,20 +138,36 @@ class Joint:
         """Lower limits of displacement along the axes of frame 1 (3,)."""
         return self._copy("linear_limits", 0)
 
+    @linear_min.setter
+    def linear_min(self, value: Limits) -> None:
+        self._set_limits("linear", 0, value)
+
     @property
     def linear_max(self) -> Floats:
         """Upper limits of displacement along the axes of frame 1 (3,)."""
         return self._copy("linear_limits", 1)
+
+    @linear_max.setter
+    def linear_max(self, value: Limits) -> None:
+        self._set_limits("linear", 1, value)
 
     @property
     def angular_min(self) -> Floats:
         """Lower limits of rotation about the axes of frame 1 (3,), radians."""
         return self._copy("angular_limits", 0)
 
+    @angular_min.setter
+    def angular_min(self, value: Limits) -> None:
+        self._set_limits("angular", 0, value)
+
     @property
     def angular_max(self) -> Floats:
         """Upper limits of rotation about the axes of frame 1 (3,), radians."""
         return self._copy("angular_limits", 1)
+
+    @angular_max.setter
+    def angular_max(self, value: Limits) -> None:
+        self._set_limits("angular", 1, value)
 
     @property
     def linear_spring(self) -> Spring:
@@ -150,11 +175,37 @@ class Joint:
         stiffness, damping, target = self._get("linear_springs").tolist()
         return stiffness, damping, target
 
+    @linear_spring.setter
+    def linear_spring(self, value: Spring | None) -> None:
+        self._set("linear_springs", spring_of("linear", value))
+
     @property
     def angular_spring(self) -> Spring:
         """Stiffness (torque/radian), damping, target (radians)."""
         stiffness, damping, target = self._get("angular_springs").tolist()
         return stiffness, damping, target
+
+    @angular_spring.setter
+    def angular_spring(self, value: Spring | None) -> None:
+        self._set("angular_springs", spring_of("angular", value))
+
+    @property
+    def coordinates(self) -> Floats:
+        """Where the bodies stand to each other along the axes that are not locked (k,).
+
+        First displacements along x, y, z of frame 1, then turns about x, the new y, the new z in
+        radians: one number of a hinge or slider. A ball has its rotation vector.
+        """
+        found = coordinates.coordinates(self._storage, self._storage.locate_joint(self.sid))
+        found.flags.writeable = False
+        return found
+
+    @property
+    def speed(self) -> Floats:
+        """How fast the coordinates change (k,); of a ball the angular velocity in frame 1."""
+        found = coordinates.speeds(self._storage, self._storage.locate_joint(self.sid))
+        found.flags.writeable = False
+        return found
 
     @property
     def enabled(self) -> bool:
@@ -198,12 +249,6 @@ class Joints(Handles[Joint]):
     def columns(self) -> dict[str, NDArray[Any]]:
         """All columns by name (``sids`` and those of `JOINT_FIELDS`), writable views."""
         return {name: self._table.column(name) for name in ("sids", *JOINT_FIELDS)}
-
-
-class HasStorage(Protocol):
-    """A World, as far as it is needed here."""
-
-    _storage: Storage
 
 
 def attach_fixed_joint(

@@ -1,4 +1,4 @@
-"""Materials and what happens where two of them meet, by pe's rules."""
+"""Materials, and the pairs of them that are set by hand (`pairing` has pe's rules)."""
 
 from __future__ import annotations
 
@@ -235,13 +235,14 @@ class Materials:
         return self._table.frozen("sids")
 
     def values(self, key: str, ids: ArrayLike | None = None) -> NDArray[np.float64]:
-        """One of `VALUES` of many materials (n,), by id, or of all in the order of `ids`."""
+        """One of `VALUES` of many materials (n,), by id, or of all; read-only, see `change`."""
         if key not in VALUES:
             raise refuse(MATERIAL_VALUE, f"Materials have no {key!r}, but {', '.join(VALUES)}.")
         if ids is None:
             return self._table.frozen(key)
-        rows = self.rows(ids)
-        return np.asarray(self._table.column(key)[rows])
+        found = np.asarray(self._table.column(key)[self.rows(ids)])
+        found.flags.writeable = False  # or else a change of them would change nothing
+        return found
 
     def rows(self, ids: ArrayLike) -> NDArray[np.int64]:
         """Where materials of given ids (n,) are in the order of `ids`; WorldError if nowhere."""
@@ -331,47 +332,6 @@ class Materials:
             self._overrides[low, high] = PairOverride(low, high, **given)
         else:
             self._overrides.pop((low, high), None)
-
-    def pair(self, first: Material, second: Material) -> MaterialPair:
-        """What holds between two materials: pe's rules, then what was set by hand."""
-        if first.id > second.id:
-            first, second = second, first
-        stiffness = _series(first.stiffness, second.stiffness)
-        if second.id < self.DEFAULT_COUNT:
-            restitution, static, dynamic = 0.25, 0.2, 0.2
-        else:
-            restitution = math.hypot(
-                first.restitution * math.sqrt(stiffness / first.stiffness),
-                second.restitution * math.sqrt(stiffness / second.stiffness),
-            )
-            static = first.static_friction + second.static_friction
-            dynamic = first.dynamic_friction + second.dynamic_friction
-        override = self._overrides.get((first.id, second.id))
-        if override is not None:
-            if override.restitution is not None:
-                restitution = override.restitution
-            if override.static_friction is not None:
-                static = override.static_friction
-            if override.dynamic_friction is not None:
-                dynamic = override.dynamic_friction
-        compliance = (1 - first.poisson_ratio**2) / first.young_modulus + (
-            1 - second.poisson_ratio**2
-        ) / second.young_modulus
-        return MaterialPair(
-            restitution=restitution,
-            static_friction=static,
-            dynamic_friction=dynamic,
-            young_modulus=1 / compliance if compliance else math.inf,
-            stiffness=stiffness,
-            damping_normal=_series(first.damping_normal, second.damping_normal),
-            damping_tangential=_series(first.damping_tangential, second.damping_tangential),
-        )
-
-
-def _series(first: float, second: float) -> float:
-    """1/(1/a + 1/b), zero where either is zero."""
-    low, high = sorted((first, second))
-    return low / (1.0 + low / high) if low else 0.0
 
 
 def check_value(name: str, key: str, value: float) -> float:

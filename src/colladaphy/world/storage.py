@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from colladaphy.world.meshes import Mesh
 from colladaphy.world.rules import BODY_GONE, refuse
 from colladaphy.world.table import Table
 
-__all__ = ["EngineState", "Storage"]
+__all__ = ["EngineState", "HasStorage", "Storage"]
 
 Floats = NDArray[np.float64]
 
@@ -144,3 +144,9 @@ class Storage:
                     del self.joints_of[body]
         self.joint_table.remove(row)
         self.joint_names.pop(sid, None)
+
+
+class HasStorage(Protocol):
+    """A World, as far as the functions that are its methods need it."""
+
+    _storage: Storage

@@ -15,7 +15,7 @@ from colladaphy.world.rules import JOINT_BODIES, NUMBER, UNION_MEMBERS, refuse
 from colladaphy.world.storage import Storage
 from colladaphy.world.unions import Part, Sum, add_up, shared_motion, steiner
 
-__all__ = ["UnionOptions", "create_union", "place"]
+__all__ = ["UnionOptions", "add_up_again", "create_union", "place"]
 
 Floats = NDArray[np.float64]
 
@@ -230,21 +230,29 @@ def place(
     if orientation is not None:
         back = rotations.conjugate(rotations.normalize(turn))
         table.raw("orientations")[row] = rotations.multiply(back, orientation)
-    _add_up_again(storage, parent)
+    add_up_again(storage, parent)
 
 
-def _add_up_again(storage: Storage, sid: int) -> None:
+def add_up_again(storage: Storage, sid: int) -> None:
+    """Make a union the sum of its members as they are now, and those above it.
+
+    Members and joints stay where they are in the world, and every point keeps its velocity.
+    """
     total = add_up([_part(storage, member) for member in storage.children[sid]])
     for member in storage.children[sid]:
         table, row = storage.locate(member)
         table.raw("positions")[row] -= total.center
     table, row = storage.locate(sid)
     turn = table.raw("orientations")[row]
-    table.raw("positions")[row] += rotations.rotate(turn, total.center)
+    shift = rotations.rotate(turn, total.center)
+    table.raw("positions")[row] += shift
+    if table is storage.top:
+        spin = table.raw("angular_velocities")[row]
+        table.raw("linear_velocities")[row] += np.cross(spin, shift)
     table.raw("masses")[row] = total.mass
     table.raw("inertias")[row] = total.inertia
     if table is storage.inner:
-        _add_up_again(storage, int(table.raw("parents")[row]))
+        add_up_again(storage, int(table.raw("parents")[row]))
     joints = storage.joint_table
     for joint in storage.joints_of.get(sid, ()):
         place = joints.find(joint)

@@ -3,20 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib import import_module
 from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from colladaphy.world import attaching, creating, rotations, uniting, values
+from colladaphy.world import (
+    attaching,
+    creating,
+    creators,
+    pairing,
+    uniting,
+    values,
+    weighing,
+)
 from colladaphy.world import joints as joining
 from colladaphy.world.attributes import Column, Held, Setting
-from colladaphy.world.body import Body, sid_of
+from colladaphy.world.belonging import sid_of
+from colladaphy.world.body import Body
 from colladaphy.world.columns import BodyColumns, JointColumns, MemberColumns
-from colladaphy.world.creating import BodyOptions, EmptyOptions
 from colladaphy.world.handles import Handles
 from colladaphy.world.joints import Joint, Joints
-from colladaphy.world.kinds import Kind
 from colladaphy.world.materials import (
     AnyMaterial,
     Material,
@@ -144,93 +152,14 @@ class World:
 
     # --- creators
 
-    def create_sphere(
-        self, uid: int, position: ArrayLike, radius: float, material: AnyMaterial,
-        **options: Unpack[BodyOptions],
-    ) -> Body:  # fmt: skip
-        """A sphere."""
-        sizes = (values.positive("radius", radius), 0.0, 0.0, 0.0)
-        return self._create(Kind.SPHERE, uid, position, sizes, material, **options)
-
-    def create_box(
-        self, uid: int, position: ArrayLike, lengths: ArrayLike, material: AnyMaterial,
-        **options: Unpack[BodyOptions],
-    ) -> Body:  # fmt: skip
-        """A box of full side lengths (3,)."""
-        x, y, z = values.positives("side length", lengths, 3)
-        return self._create(Kind.BOX, uid, position, (x, y, z, 0.0), material, **options)
-
-    def create_capsule(
-        self, uid: int, position: ArrayLike, radius: ArrayLike, length: float,
-        material: AnyMaterial, **options: Unpack[BodyOptions],
-    ) -> Body:  # fmt: skip
-        """A capsule along x; `length` excludes the caps.
-
-        `radius` is a number, or the semi-axes x (of the caps), y and z.
-        """
-        x, y, z = values.positives("radius", radius, 3)
-        sizes = (x, y, z, values.positive("length", length))
-        return self._create(Kind.CAPSULE, uid, position, sizes, material, **options)
-
-    def create_cylinder(
-        self, uid: int, position: ArrayLike, radius: ArrayLike, length: float,
-        material: AnyMaterial, **options: Unpack[BodyOptions],
-    ) -> Body:  # fmt: skip
-        """A cylinder along x. `radius` is a number, or the semi-axes y and z."""
-        y, z = values.positives("radius", radius, 2)
-        sizes = (0.0, y, z, values.positive("length", length))
-        return self._create(Kind.CYLINDER, uid, position, sizes, material, **options)
-
-    def create_ellipsoid(
-        self, uid: int, position: ArrayLike, radii: ArrayLike, material: AnyMaterial,
-        **options: Unpack[BodyOptions],
-    ) -> Body:  # fmt: skip
-        """An ellipsoid of semi-axes (3,)."""
-        x, y, z = values.positives("radius", radii, 3)
-        return self._create(Kind.ELLIPSOID, uid, position, (x, y, z, 0.0), material, **options)
-
-    def create_plane(
-        self, uid: int, normal: ArrayLike, displacement: float | None, material: AnyMaterial, *,
-        position: ArrayLike | None = None, **options: Unpack[BodyOptions],
-    ) -> Body:  # fmt: skip
-        """A half space, solid where normal·x < displacement; fixed and infinite.
-
-        The normal points out of the solid. Instead of the displacement (None), a point of the
-        surface may be given as `position`, which is then kept.
-        """
-        anchor, sizes = creating.plane(normal, displacement, position)
-        if "orientation" not in options:
-            options["orientation"] = rotations.between((0.0, 0.0, 1.0), sizes[:3])
-        return self._create(Kind.PLANE, uid, anchor, sizes, material, **options)
-
-    def create_mesh(
-        self, uid: int, position: ArrayLike, vertices: ArrayLike | Mesh, faces: ArrayLike | None,
-        material: AnyMaterial, *, convex: bool = False, **options: Unpack[BodyOptions],
-    ) -> Body:  # fmt: skip
-        """A body enclosed by a closed surface of triangles, its centre of mass at `position`.
-
-        `vertices` (n, 3) and `faces` (m, 3), see `Mesh`; or a mesh of this World (faces None),
-        which the bodies then share.
-        """
-        made = creating.create_mesh(
-            self._storage, uid, position, vertices, faces, material, convex, **options
-        )
-        return Body(self._storage, made)
-
-    def create_body(
-        self, uid: int, position: ArrayLike, mass: float, inertia: ArrayLike | None = None,
-        **options: Unpack[EmptyOptions],
-    ) -> Body:  # fmt: skip
-        """A body of mass and inertia without any shape, which nothing collides with.
-
-        The inertia is (3, 3) about the centre of mass in the body frame, or its diagonal (3,);
-        None is that of a point, zero.
-        """
-        given: Any = {**options, "mass": values.mass(mass), "inertia": inertia}
-        return self._create(Kind.EMPTY, uid, position, (0.0, 0.0, 0.0, 0.0), None, **given)
-
-    def _create(self, *arguments: Any, **options: Unpack[BodyOptions]) -> Body:
-        return Body(self._storage, creating.create(self._storage, *arguments, **options))
+    create_sphere = creators.create_sphere
+    create_box = creators.create_box
+    create_capsule = creators.create_capsule
+    create_cylinder = creators.create_cylinder
+    create_ellipsoid = creators.create_ellipsoid
+    create_plane = creators.create_plane
+    create_mesh = creators.create_mesh
+    create_body = creators.create_body
 
     def create_union(
         self, uid: int, members: Sequence[Body], **options: Unpack[UnionOptions]
@@ -283,10 +212,17 @@ class World:
         """Add a material (thesis 4.4). Names and ids are unique; WorldError on bad values."""
         return self.materials.create(name, id=id, **numbers)
 
-    def pair(self, first: AnyMaterial, second: AnyMaterial) -> MaterialPair:
-        """What holds where two materials meet: pe's rules and what was set by hand."""
+    def pair(
+        self, first: AnyMaterial, second: AnyMaterial, *, friction: str = "sum"
+    ) -> MaterialPair:
+        """What holds where two materials meet: pe's rules and what was set by hand.
+
+        `friction`: how two frictions make one, which engines can be told too; "sum" as in pe,
+        "average", "product" or "maximum".
+        """
         materials = self.materials
-        return materials.pair(materials.resolve(first), materials.resolve(second))
+        one, two = materials.resolve(first), materials.resolve(second)
+        return pairing.pair(materials, one, two, friction)
 
     def set_pair(
         self, first: AnyMaterial, second: AnyMaterial, restitution: float | None = None,
@@ -307,6 +243,24 @@ class World:
     def joints(self) -> Joints:
         """The joints in the order of their system ids."""
         return Joints(self._storage)
+
+    def joint(self, sid: int) -> Joint:
+        """The joint of a system id; WorldError if there is none."""
+        sid = values.integer("system id", sid)
+        self._storage.locate_joint(sid if 0 < sid < 2**63 else 0)
+        return Joint(self._storage, sid)
+
+    def joints_by_uid(self, uid: int) -> list[Joint]:
+        """All joints of a user id, in the order of their system ids."""
+        table, uid = self.joint_table, values.user_id(uid)
+        found = table.column("sids")[table.column("uids") == uid]
+        return [Joint(self._storage, sid) for sid in found.tolist()]
+
+    def joints_by_name(self, name: str) -> list[Joint]:
+        """All joints of a name, in the order of their system ids."""
+        name = values.text("name", name)
+        found = sorted(sid for sid, own in self.joint_names.items() if own == name)
+        return [Joint(self._storage, sid) for sid in found]
 
     attach_fixed_joint = joining.attach_fixed_joint
     attach_hinge_joint = joining.attach_hinge_joint
@@ -404,9 +358,29 @@ class World:
         """The system id of the outermost union of a body, or its own."""
         return self._storage.root_of(sid)
 
+    def differing_unions(self) -> list[Body]:
+        """The unions whose mass, centre or inertia is not that of their members together.
+
+        They were made with values of their own, or members were changed through columns
+        (`Body.add_up` makes it good).
+        """
+        return [Body(self._storage, sid) for sid in weighing.differing_unions(self._storage)]
+
     def is_infinite(self, sid: int) -> bool:
         """True for planes and for unions that hold one."""
         return self._storage.is_infinite(sid)
+
+    # --- time
+
+    def run(self, steps: int, dt: float | None = None, **options: Any) -> Any:
+        """Advance `steps` time steps of `dt`, as pe's `run`, and return the `Simulation`.
+
+        `options` are those of `colladaphy.Simulation`, such as the engine. Its `report` says what
+        is dropped or assumed; its own `run` goes on without setting up again.
+        """
+        simulation = import_module("colladaphy").Simulation(self, dt=dt, **options)
+        simulation.run(steps)
+        return simulation
 
     def __repr__(self) -> str:
         name = f" {self.name!r}" if self.name else ""

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.engines.protocol import Contact
-from colladaphy.engines.surfaces import PairTable
+from colladaphy.world.pairing import PairTable
 
 if TYPE_CHECKING:
     from colladaphy.world import World
@@ -42,7 +42,7 @@ class Surfaces:
     @classmethod
     def of(cls, world: World, ids: Any, rule: str, *, twice: bool) -> Surfaces:
         """The surfaces of the materials of `ids`."""
-        table = PairTable.of(world, ids, rule)
+        table = PairTable.of(world.materials, ids, rule)
         own = np.array(np.diagonal(table.dynamic))
         special = bool(np.any(table.dynamic != np.maximum(own[:, None], own)))
         return cls(table, own, special, twice)

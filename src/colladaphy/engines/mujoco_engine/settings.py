@@ -10,7 +10,7 @@ import numpy as np
 
 from colladaphy.engines.options import Options
 from colladaphy.engines.rules import SETTINGS
-from colladaphy.engines.surfaces import FRICTION_RULES
+from colladaphy.world.pairing import FRICTION_RULES
 
 if TYPE_CHECKING:
     from colladaphy.findings import Finding

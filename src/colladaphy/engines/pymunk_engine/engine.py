@@ -20,7 +20,7 @@ from colladaphy.engines.pymunk_engine.batches import Batch
 from colladaphy.engines.pymunk_engine.contacts import contacts_of
 from colladaphy.engines.pymunk_engine.links import Link, plan
 from colladaphy.engines.pymunk_engine.settings import PymunkOptions
-from colladaphy.engines.pymunk_engine.space import Model, build
+from colladaphy.engines.pymunk_engine.space import Model, build, let_joints_have_their_way
 from colladaphy.engines.rules import JOINT_LIMITS, JOINT_OVERLAP, PLANE_FINITE, SIZE
 from colladaphy.engines.state import pack, unpack
 from colladaphy.engines.unused import unused
@@ -166,6 +166,8 @@ class PymunkEngine:
             flat, turns = frame.flat(ahead[0]).tolist(), frame.height(about[0]).tolist()
             for body, velocity, spin in zip(model.bodies, flat, turns, strict=True):
                 body.velocity, body.angular_velocity = tuple(velocity), spin
+            if links := _planned(world, self._plan):
+                let_joints_have_their_way(model, links)
         self._speeds = speeds
         self._batch.push(frame.flat(ahead[1]), frame.height(about[1]))
         self._bounds = self._bounds.widened(world)
@@ -200,7 +202,7 @@ class PymunkEngine:
                 continue
             link = plan(joint, planarity.frame, planarity.size)
             findings += link.findings
-            if any(finding.code == "engine-joint-inert" for finding in link.findings):
+            if link.is_inert:
                 continue
             links.append(link)
             wrong = list(joint_findings(joint, speeds))
@@ -211,6 +213,13 @@ class PymunkEngine:
                 findings.append(PLANE_FINITE.at(message=message))
         findings += unused(world, self._options.friction, sleep=self._options.sleep)
         return planarity, links, [self._options.describe(), *findings]
+
+
+def _planned(world: World, planarity: Planarity) -> list[Link]:
+    """The joints as they stand now."""
+    links = (plan(joint, planarity.frame, planarity.size) for joint in world.joints
+             if joint.enabled)  # fmt: skip
+    return [link for link in links if not link.is_inert]
 
 
 def _overlaps(world: World, model: Model, links: list[Link], size: float) -> Iterator[Finding]:

@@ -59,6 +59,11 @@ class Link:
     """Angle at rest, stiffness, damping."""
     findings: list[Finding] = field(default_factory=list)
 
+    @property
+    def is_inert(self) -> bool:
+        """True if it binds what cannot move."""
+        return any(finding.code == JOINT_INERT.code for finding in self.findings)
+
 
 def plan(joint: Joint, frame: Frame, size: float) -> Link:
     """The constraints of `joint` in the plane; its findings say what cannot be done."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import pymunk
 
 from colladaphy.engines.planar import Planarity
-from colladaphy.engines.surfaces import PairTable
+from colladaphy.world.pairing import PairTable
 
 if TYPE_CHECKING:
     from colladaphy.world import World
@@ -25,7 +25,7 @@ class Pairs:
 
     def __init__(self, world: World, plan: Planarity, rule: str) -> None:
         ids = {outline.material for outlines in plan.outlines.values() for outline in outlines}
-        self._table = PairTable.of(world, ids, rule)
+        self._table = PairTable.of(world.materials, ids, rule)
         self._rows = {id: row for row, id in enumerate(self._table.ids.tolist())}
         values = [*self._table.restitution.ravel(), *self._table.dynamic.ravel()]
         half = len(values) // 2

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from colladaphy.engines.options import Options
 from colladaphy.engines.rules import SETTINGS
-from colladaphy.engines.surfaces import FRICTION_RULES
+from colladaphy.world.pairing import FRICTION_RULES
 
 if TYPE_CHECKING:
     from colladaphy.findings import Finding

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from colladaphy.engines.pymunk_engine.settings import PymunkOptions
     from colladaphy.world import World
 
-__all__ = ["Model", "build"]
+__all__ = ["Model", "build", "let_joints_have_their_way"]
 
 _LEAST_SPEED = 1e-30  # Chipmunk takes 0 for gravity's own
 _SLEEP_AFTER = 0.5  # of the World's unit of time
@@ -42,6 +42,8 @@ class Model:
     """The system ids of `bodies`."""
     owners: dict[int, int] = field(default_factory=dict)
     """System ids of the top-level bodies by the ids of pymunk's bodies."""
+    by_sid: dict[int, pymunk.Body] = field(default_factory=dict)
+    """All bodies, by system id."""
 
 
 def build(
@@ -62,7 +64,7 @@ def build(
         gravity_step = float(np.hypot(*gravity)) * dt
         space.idle_speed_threshold = max(_SLEEP * gravity_step, _LEAST_SPEED)
     pairs = Pairs(world, plan, options.friction)
-    by_sid = _add_bodies(model, world, plan, pairs)
+    by_sid = model.by_sid = _add_bodies(model, world, plan, pairs)
     pairs.attach(space)
     # What is solved for last is kept best: the joints themselves come after limits and springs.
     made = [_constraints(space, by_sid, link, plan.size, dt) for link in links]
@@ -70,13 +72,15 @@ def build(
         for pair in made:
             space.add(*pair[number])
     if fresh and links:
-        _let_joints_have_their_way(by_sid, links)
+        let_joints_have_their_way(model, links)
     if options.sleep:
         _put_to_sleep(model, world, links)
     return model
 
 
-def _let_joints_have_their_way(by_sid: dict[int, pymunk.Body], links: list[Link]) -> None:
+def let_joints_have_their_way(model: Model, links: list[Link]) -> None:
+    """Take out of the velocities, by impulses, what `links`, of the poses of now, forbid."""
+    by_sid = model.by_sid
     bodies = list(by_sid.values())
     rows = {sid: row for row, sid in enumerate(by_sid)} | {0: len(bodies)}
     places = np.array([*(tuple(body.position) for body in bodies), (0.0, 0.0)])
