@@ -6,6 +6,9 @@
     @given(worlds())                         # anything that a World can hold; see its parameters
     def test_writer(world: World) -> None: ...
 
+    @given(physics_documents())              # valid, and there are bodies in it
+    def test_importer(document: bytes) -> None: ...
+
     @given(documents())                      # schema-valid, any area of the schema
     def test_reader(document: bytes) -> None: ...
 
@@ -28,11 +31,13 @@ except ImportError as error:  # say what to install, not only what is missing
         "colladaphy.testing needs hypothesis: pip install 'colladaphy[testing]'"
     ) from error
 
+from colladaphy.testing.changes import REWRITES, equivalents
 from colladaphy.testing.coverage import Component, Coverage
 from colladaphy.testing.covering import covering_documents
 from colladaphy.testing.documents import AREAS, documents
 from colladaphy.testing.making.crowds import crowd
 from colladaphy.testing.mutations import MUTATIONS, mutants
+from colladaphy.testing.physics import physics_documents
 from colladaphy.testing.worlds import JOINTS, SHAPES, worlds
 
 del _hypothesis
@@ -41,12 +46,15 @@ __all__ = [
     "AREAS",
     "JOINTS",
     "MUTATIONS",
+    "REWRITES",
     "SHAPES",
     "Component",
     "Coverage",
     "covering_documents",
     "crowd",
     "documents",
+    "equivalents",
     "mutants",
+    "physics_documents",
     "worlds",
 ]

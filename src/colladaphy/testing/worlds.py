@@ -13,7 +13,15 @@ from colladaphy.testing.making.crowds import CROWD_SHAPES, crowd
 from colladaphy.testing.making.joints import JOINTS, draw_joint
 from colladaphy.testing.making.materials import draw_materials
 from colladaphy.testing.making.planar import PLANAR_JOINTS, PLANAR_SHAPES, draw_planar
-from colladaphy.testing.making.scalars import maybe, names, numbers, positives, several, triples
+from colladaphy.testing.making.scalars import (
+    Scale,
+    maybe,
+    names,
+    numbers,
+    positives,
+    several,
+    triples,
+)
 from colladaphy.testing.making.script import Script
 from colladaphy.world import Body, EngineState, World
 
@@ -33,6 +41,7 @@ def worlds(
     min_bodies: int = 1,
     max_bodies: int = 300,
     extreme: bool | None = None,
+    physical: bool = False,
     planar: bool = False,
     engine_states: bool = True,
 ) -> st.SearchStrategy[World]:
@@ -51,6 +60,8 @@ def worlds(
       as one;
     - `extreme`: with True numbers are any finite floats, from denormal ones to the largest; with
       False they are of everyday size; None draws which;
+    - `physical`: with True inertias are such as bodies can have, which an importer may insist on;
+      a World takes any numbers;
     - `planar`: everything stays in a plane, as `PymunkEngine` needs it, and is of everyday size.
 
     Raises ValueError for an unknown shape or joint, or one that cannot be planar, and for fewer
@@ -66,8 +77,9 @@ def worlds(
     if not some_shapes and max_bodies:
         raise ValueError("bodies need a shape: name at least one of SHAPES, or 'empty'")
     plan = _Plan(
-        some_shapes, some_joints, unions, materials, moving, min_bodies, max_bodies, engine_states
-    )
+        some_shapes, some_joints, unions, materials, moving, min_bodies, max_bodies, engine_states,
+        physical,
+    )  # fmt: skip
 
     @st.composite
     def world(draw: st.DrawFn) -> World:
@@ -95,7 +107,7 @@ class _Plan:
 
     def __init__(
         self, shapes: list[str], joints: list[str], unions: bool, materials: bool, moving: bool,
-        fewest: int, most: int, engine_states: bool,
+        fewest: int, most: int, engine_states: bool, physical: bool,
     ) -> None:  # fmt: skip
         self.shapes = shapes
         self.joints = joints
@@ -105,6 +117,7 @@ class _Plan:
         self.fewest = fewest
         self.most = most
         self.engine_states = engine_states
+        self.physical = physical
         self.crowd = [name for name in CROWD_SHAPES if name in shapes]
 
 
@@ -118,7 +131,8 @@ def _planar(draw: st.DrawFn, plan: _Plan) -> Script:
 
 
 def _any(draw: st.DrawFn, plan: _Plan, extreme: bool) -> Script:
-    script = _empty(draw, plan, extreme)
+    script = _empty(draw, extreme)
+    scale = Scale(extreme, plan.physical)
     world = script.world
     materials = list(world.materials)[:2]
     if plan.materials:
@@ -126,19 +140,19 @@ def _any(draw: st.DrawFn, plan: _Plan, extreme: bool) -> Script:
 
     def body(draw: st.DrawFn) -> Body:
         shape = draw(st.sampled_from(plan.shapes))
-        made = draw_body(draw, script, shape, materials, extreme)
+        made = draw_body(draw, script, shape, materials, scale)
         if made is None:  # a plane too far away
             made = script.call(world.create_plane, 0, (0, 0, 1), 0, "iron")
         return made
 
     few = min(plan.fewest, ONE_BY_ONE) if plan.crowd else plan.fewest
     top = several(draw, few, max(few, min(plan.most, ONE_BY_ONE)), body)
-    _join(draw, script, plan, top, extreme)
+    _join(draw, script, plan, top, scale)
     if len(top) > plan.fewest and draw(st.integers(0, 2)) == 2:
         script.call(world.destroy, top.pop(draw(st.integers(0, len(top) - 1))))
     if plan.moving:
         for each in top:
-            draw_state(draw, script, each, extreme)
+            draw_state(draw, script, each, scale)
     if top and plan.joints:
         several(draw, 0, 3, lambda draw: draw_joint(draw, script, top, plan.joints, extreme))
         if len(world.joints) and draw(st.integers(0, 4)) == 4:
@@ -150,7 +164,7 @@ def _any(draw: st.DrawFn, plan: _Plan, extreme: bool) -> Script:
     return script
 
 
-def _empty(draw: st.DrawFn, plan: _Plan, extreme: bool) -> Script:
+def _empty(draw: st.DrawFn, extreme: bool) -> Script:
     options: dict[str, Any] = {}
     maybe(draw, options, "gravity", triples(numbers(extreme)))
     maybe(draw, options, "unit", st.tuples(names, positives(extreme)))
@@ -165,13 +179,13 @@ def _empty(draw: st.DrawFn, plan: _Plan, extreme: bool) -> Script:
     return script
 
 
-def _join(draw: st.DrawFn, script: Script, plan: _Plan, top: list[Body], extreme: bool) -> None:
+def _join(draw: st.DrawFn, script: Script, plan: _Plan, top: list[Body], scale: Scale) -> None:
     """Unions, later ones of earlier ones, as long as enough bodies are left at the top."""
 
     def union(draw: st.DrawFn) -> None:
         most = min(3, len(top) - plan.fewest + 1)
         if top and most > 0:
-            draw_union(draw, script, top, most, extreme)
+            draw_union(draw, script, top, most, scale)
 
     several(draw, 0, 3 if plan.unions else 0, union)
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from colladaphy.errors import WorldError
 from colladaphy.testing.making.scalars import (
+    Scale,
     directions,
     identifiers,
     maybe,
@@ -39,21 +40,25 @@ _TETRAHEDRON = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
 _angles = st.floats(-7, 7)
 
 
-def _mass_options(draw: st.DrawFn, extreme: bool) -> dict[str, Any]:
+def _mass_options(draw: st.DrawFn, scale: Scale) -> dict[str, Any]:
     """Extreme dimensions lead to masses out of range: then both are given."""
     options: dict[str, Any] = {}
-    if extreme or draw(st.integers(0, 3)) == 3:
-        options["mass"] = draw(positives(extreme))
-        options["inertia"] = draw(triples(triples(numbers(extreme))))
+    if scale.extreme or draw(st.integers(0, 3)) == 3:
+        options["mass"] = draw(positives(scale.extreme))
+        if scale.physical:
+            x, y, z = draw(triples(positives(False)))
+            options["inertia"] = (y + z, x + z, x + y)
+        else:
+            options["inertia"] = draw(triples(triples(numbers(scale.extreme))))
     return options
 
 
-def _options(draw: st.DrawFn, script: Script, extreme: bool) -> dict[str, Any]:
+def _options(draw: st.DrawFn, script: Script, scale: Scale) -> dict[str, Any]:
     options: dict[str, Any] = {}
     maybe(draw, options, "orientation", quaternions)
     maybe(draw, options, "fixed", st.booleans())
     maybe(draw, options, "name", names)
-    options.update(_mass_options(draw, extreme))
+    options.update(_mass_options(draw, scale))
     if draw(st.integers(0, 4)) == 4:
         world = script.world
         options["sid"] = draw(
@@ -64,20 +69,20 @@ def _options(draw: st.DrawFn, script: Script, extreme: bool) -> dict[str, Any]:
 
 
 def draw_body(
-    draw: st.DrawFn, script: Script, shape: str, materials: list[Material], extreme: bool
+    draw: st.DrawFn, script: Script, shape: str, materials: list[Material], scale: Scale
 ) -> Body | None:
     """A body of a shape; None where its numbers are of no use, which extreme ones may be."""
     world = script.world
-    options = _options(draw, script, extreme)
-    uid, position = draw(identifiers), draw(triples(numbers(extreme)))
-    positive = positives(extreme)
+    options = _options(draw, script, scale)
+    uid, position = draw(identifiers), draw(triples(numbers(scale.extreme)))
+    positive = positives(scale.extreme)
     if shape == "empty":
         mass = options.pop("mass", None)
         mass = draw(st.just(0.0) | positive) if mass is None else mass
         return script.call(world.create_body, uid, position, mass, **options)
     material = draw(st.sampled_from(materials)).name
     if shape == "plane":
-        return _plane(draw, script, uid, position, material, extreme, options)
+        return _plane(draw, script, uid, position, material, scale, options)
     maybe(draw, options, "hollow", st.booleans())
     if shape == "mesh":
         return _mesh(draw, script, uid, position, material, options)
@@ -97,14 +102,14 @@ def draw_body(
 
 
 def _plane(
-    draw: st.DrawFn, script: Script, uid: int, position: Any, material: str, extreme: bool,
+    draw: st.DrawFn, script: Script, uid: int, position: Any, material: str, scale: Scale,
     options: dict[str, Any],
 ) -> Body | None:  # fmt: skip
     for key in ("fixed", "mass", "inertia"):
         options.pop(key, None)
     normal, create = draw(directions), script.world.create_plane
     if draw(st.booleans()):
-        return script.call(create, uid, normal, draw(numbers(extreme)), material, **options)
+        return script.call(create, uid, normal, draw(numbers(scale.extreme)), material, **options)
     with np.errstate(all="ignore"):
         try:
             return script.call(create, uid, normal, None, material, position=position, **options)
@@ -128,14 +133,14 @@ def _mesh(
     return script.call(create, uid, position, points, _TETRAHEDRON, material, **options)
 
 
-def draw_union(draw: st.DrawFn, script: Script, top: list[Body], most: int, extreme: bool) -> None:
+def draw_union(draw: st.DrawFn, script: Script, top: list[Body], most: int, scale: Scale) -> None:
     """Joins up to `most` bodies of `top`, unions among them, to one that takes their place."""
     members = draw(st.lists(st.sampled_from(top), min_size=1, max_size=most, unique=True))
     options: dict[str, Any] = {}
     maybe(draw, options, "name", names)
-    if extreme:
-        options.update(_mass_options(draw, extreme))
-        options["position"] = draw(triples(numbers(extreme)))
+    if scale.extreme:
+        options.update(_mass_options(draw, scale))
+        options["position"] = draw(triples(numbers(scale.extreme)))
         options["orientation"] = draw(quaternions)
         options["members_are_local"] = True
     else:
@@ -146,10 +151,10 @@ def draw_union(draw: st.DrawFn, script: Script, top: list[Body], most: int, extr
     top.append(union)
 
 
-def draw_state(draw: st.DrawFn, script: Script, body: Body, extreme: bool) -> None:
+def draw_state(draw: st.DrawFn, script: Script, body: Body, scale: Scale) -> None:
     """What can be set on any body after its creation."""
     state: dict[str, Any] = {}
-    vectors = triples(numbers(extreme))
+    vectors = triples(numbers(scale.extreme))
     maybe(draw, state, "linear_velocity", vectors)
     maybe(draw, state, "angular_velocity", vectors)
     if draw(st.integers(0, 3)) == 3:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from hypothesis import strategies as st
 
 from colladaphy.world import rotations
 
 __all__ = [
+    "Scale",
     "directions",
     "identifiers",
     "maybe",
@@ -24,6 +25,16 @@ __all__ = [
 ]
 
 T = TypeVar("T")
+
+
+class Scale(NamedTuple):
+    """Of which size numbers are."""
+
+    extreme: bool
+    """Any finite floats, rather than those of everyday size."""
+    physical: bool
+    """Only inertias that bodies can have."""
+
 
 # What XML 1.0 can hold: most of Unicode, but few control characters and no halves of pairs.
 _characters = st.characters(

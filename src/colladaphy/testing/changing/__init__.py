@@ -1,0 +1,1 @@
+"""How documents are changed: spelled otherwise, rearranged, and edited."""

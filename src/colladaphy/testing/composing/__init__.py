@@ -1,0 +1,1 @@
+"""How documents of physics are drawn whose structures no writer of ours makes."""
