@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, TypeVar
 
 import click
 
+from colladaphy.cli.progress import aside
+
 if TYPE_CHECKING:
     from colladaphy.findings import Finding, Report
 
@@ -51,12 +53,14 @@ def _colour() -> bool | None:
 
 def say(text: str) -> None:
     """A line of the result."""
-    click.echo(text, color=_colour())
+    with aside():
+        click.echo(text, color=_colour())
 
 
 def note(text: str) -> None:
     """A line that is not part of the result."""
-    click.echo(text, err=True, color=_colour())
+    with aside():
+        click.echo(text, err=True, color=_colour())
 
 
 def note_changes(report: Report, most: int | None = 3) -> None:

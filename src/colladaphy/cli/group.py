@@ -15,6 +15,7 @@ COMMANDS = {
     "info": "Show what a document holds.",
     "convert": "Read any version, mend it, and write valid COLLADA.",
     "repair": "Mend a document, and say what was changed.",
+    "diff": "Compare the Worlds of two documents, body by body.",
     "simulate": "Run a document's World, and write the result.",
     "demo": "Store and load the six test cases of the thesis, and compare bit by bit.",
     "rules": "List the codes of all findings.",

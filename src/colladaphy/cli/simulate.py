@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import shlex
 import signal
-import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -18,6 +17,7 @@ import click
 import colladaphy
 from colladaphy.cli.console import note, say
 from colladaphy.cli.files import refuse_same, source_of, target_of
+from colladaphy.cli.progress import Bar, waiting
 
 if TYPE_CHECKING:
     from colladaphy.document import Document
@@ -130,19 +130,23 @@ def command(
     goal = world.step_count + steps
     checkpoints = _series(source, folder, keep, resume=resume, begin=bool(interval))
     if resume:
-        simulation = Simulation.resume(checkpoints.folder, chosen, dt, seed)
+        with waiting("Setting up the engine"):
+            simulation = Simulation.resume(checkpoints.folder, chosen, dt, seed)
         _tell(simulation.report.findings)
         if _is_same(world, simulation.world):
             simulation.document = document
         note(f"Resumed at step {simulation.world.step_count}.")
     else:
-        simulation = Simulation(world, chosen, dt, seed, document=document)
+        with waiting("Setting up the engine"):
+            simulation = Simulation(
+                world, chosen, dt, seed, document=document, on_finding=_announce
+            )
         _tell(simulation.report.findings)
     before = simulation.world.step_count
     recorder = _recorder(trajectory, before) if trajectory else None
     with _interruption() as interrupted:
         began = time.monotonic()
-        progress = _Progress(goal, before)
+        progress = Bar(f"{Path(source).name or source}: step", goal - before, unit="steps")
         summary = simulation.run(
             max(0, goal - before),
             observers=[] if recorder is None else [recorder],
@@ -331,10 +335,12 @@ def _beside(source: str) -> str:
 
 
 def _read(source: str) -> tuple[Document, World]:
-    document = colladaphy.read(source_of(source))
+    with waiting(f"Reading {source}"):
+        document = colladaphy.read(source_of(source))
     _tell(document.report.findings)
     known = len(document.report)
-    world: World = document.load()
+    with waiting(f"Loading {source}"):
+        world: World = document.load()
     _tell(document.report.findings[known:])
     return document, world
 
@@ -346,6 +352,14 @@ def _tell(findings: list[Finding]) -> None:
     for finding in findings:
         if finding.severity in (Severity.ERROR, Severity.WARNING):
             note(str(finding))
+
+
+def _announce(finding: Finding) -> None:
+    """That setting up will take long is worth a word before it does."""
+    from colladaphy.engines.rules import SETUP
+
+    if finding.code == SETUP.code:
+        note(finding.message)
 
 
 def _report(summary: Summary, steps: int, spent: float) -> None:
@@ -382,29 +396,3 @@ def _interruption() -> Iterator[list[int]]:
     finally:
         for number, handler in zip(numbers, before, strict=True):
             signal.signal(number, handler)
-
-
-class _Progress:
-    """Steps done and steps a second, on standard error while a person looks on."""
-
-    def __init__(self, goal: int, start: int) -> None:
-        self._goal = goal
-        self._start = start
-        self._seen = self._began = time.monotonic()
-        self._shown = False
-        self._on = sys.stderr.isatty()
-
-    def __call__(self, done: int) -> None:
-        now = time.monotonic()
-        if not self._on or now - self._seen < 0.1:
-            return
-        self._seen = now
-        self._shown = True
-        rate = done / (now - self._began)
-        line = f"\r\033[Kstep {self._start + done}/{self._goal}, {rate:.0f} a second"
-        click.echo(line, err=True, nl=False)
-
-    def clear(self) -> None:
-        """Leave no trace."""
-        if self._shown:
-            click.echo("\r\033[K", err=True, nl=False)
