@@ -11,6 +11,7 @@ from multiprocessing.connection import wait
 from pathlib import Path
 
 from tools.fuzz.registry import Property, all_properties
+from tools.fuzz.rounds import Round
 from tools.fuzz.totals import Totals, merged
 from tools.fuzz.workers import Task, Worker
 
@@ -144,12 +145,14 @@ class Run:
             busy.remove(worker)
             self._note(found)
 
-    def _note(self, found: object) -> None:
-        from tools.fuzz.rounds import Round
-
-        assert isinstance(found, Round)
+    def _note(self, found: Round) -> None:
         self.totals.wall += found.seconds
-        for failure in self.totals.add(found):
+        new = self.totals.add(found)
+        kept = {failure.file for failure in self.totals.failures.values()}
+        for failure in found.failures:
+            if failure.file and failure.file not in kept:  # one of a kind is enough
+                Path(failure.file).unlink(missing_ok=True)
+        for failure in new:
             print(f"FAILED {failure.name}: {failure.kind}\n  kept in {failure.file}", flush=True)
             if self._options.log:
                 path = self._options.log / f"failure-{failure.name}-{time.time_ns()}.txt"

@@ -29,7 +29,9 @@ def keep(folder: Path, name: str, values: tuple[Any, ...], why: str) -> Path:
     digest = hashlib.sha256(json.dumps(content["values"]).encode()).hexdigest()[:12]
     folder.mkdir(parents=True, exist_ok=True)
     path = folder / f"{name}-{digest}.json"
-    path.write_text(text, "utf-8", errors="surrogatepass")
+    part = path.with_suffix(".part")  # whole or not there: the process may end at any moment
+    part.write_text(text, "utf-8", errors="surrogatepass")
+    part.replace(path)
     return path
 
 

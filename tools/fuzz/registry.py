@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from importlib import import_module
 from typing import Any
 
+from hypothesis import strategies as st
 from hypothesis.strategies import SearchStrategy
 
-__all__ = ["MODULES", "Property", "all_properties", "note", "noted", "of"]
+__all__ = ["ELSEWHERE", "MODULES", "Property", "all_properties", "note", "noted", "of"]
 
-MODULES = ("worlds", "documents", "producers", "meaning", "anything")
+MODULES = "worlds documents producers meaning anything"
 """The modules of `tools.fuzz.properties`."""
+ELSEWHERE = "COLLADAPHY_FUZZ_MODULES"
+"""Names the modules, in all processes, that are taken in their place."""
 
 
 @dataclass(frozen=True)
@@ -34,34 +38,34 @@ class Property:
         return " ".join((self.check.__doc__ or "").split())
 
 
-_FOUND: dict[str, Property] = {}
-
-
 def of(
     *strategies: Callable[[], SearchStrategy[Any]], weight: float = 1.0
 ) -> Callable[[Callable[..., None]], Callable[..., None]]:
     """Make a check a property, of values of these strategies; its name is the check's."""
-    from hypothesis import strategies as st
 
-    def register(check: Callable[..., None]) -> Callable[..., None]:
+    def values() -> SearchStrategy[tuple[Any, ...]]:
+        return st.tuples(*(strategy() for strategy in strategies))
+
+    def mark(check: Callable[..., None]) -> Callable[..., None]:
         name = check.__name__.replace("_", "-")
-        assert name not in _FOUND, name
-
-        def values() -> SearchStrategy[tuple[Any, ...]]:
-            return st.tuples(*(strategy() for strategy in strategies))
-
-        _FOUND[name] = Property(name, values, check, weight)
+        check.property = Property(name, values, check, weight)  # type: ignore[attr-defined]
         return check
 
-    return register
+    return mark
 
 
 @cache
 def all_properties() -> dict[str, Property]:
     """Every property, by name."""
-    for module in MODULES:
-        import_module(f"tools.fuzz.properties.{module}")
-    return dict(_FOUND)
+    ours = " ".join(f"tools.fuzz.properties.{name}" for name in MODULES.split())
+    found: dict[str, Property] = {}
+    for name in os.environ.get(ELSEWHERE, ours).split():
+        for value in vars(import_module(name)).values():
+            prop = getattr(value, "property", None)
+            if isinstance(prop, Property) and value.__module__ == name:
+                assert prop.name not in found, prop.name
+                found[prop.name] = prop
+    return found
 
 
 _NOTED: list[bytes] = []

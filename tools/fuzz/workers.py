@@ -74,7 +74,9 @@ class Worker:
         found, again = Round(task.name), None
         kept = list(self.current.iterdir())
         if task.careful:
-            newest = max(kept, key=lambda path: path.stat().st_mtime, default=None)
+            newest = max(
+                self.current.glob("*.json"), key=lambda path: path.stat().st_mtime, default=None
+            )
             file = None
             if newest is not None:
                 self._folder.mkdir(parents=True, exist_ok=True)

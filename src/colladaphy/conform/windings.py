@@ -150,7 +150,7 @@ def _may_be_mixed(mesh: etree._Element, points: Matrix) -> bool:
                 words = np.array((p.text or "").split(), dtype=np.int64)
                 width = max(map(int, offsets.values())) + 1
                 corners = same.ravel()[words[int(offsets["VERTEX"]) :: width]].reshape(-1, 3)
-            except (ValueError, IndexError):
+            except (ValueError, IndexError, OverflowError):
                 return True
             starts.append(corners.ravel())
             ends.append(np.roll(corners, -1, axis=1).ravel())

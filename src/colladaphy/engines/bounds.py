@@ -37,7 +37,7 @@ class Bounds:
             float(np.abs(places - places[:1]).max(initial=0.0)),
             float(np.abs(world.dimensions[moving]).max(initial=0.0)),
             float(np.abs(world.member_columns.dimensions).max(initial=0.0)),
-            float(np.abs(world.gravity).max()) * time_step**2,
+            float(np.abs(world.gravity).max()) * time_step * time_step,
         )
         return cls(_MEASURE * way, time_step).widened(world)
 
@@ -47,11 +47,14 @@ class Bounds:
         speed = float(np.abs(world.linear_velocities[moving]).max(initial=0.0))
         masses = world.masses[moving, None]
         push = world.forces[moving] / np.where(masses > 0, masses, np.inf)
-        way = max(speed * self.time_step, float(np.abs(push).max(initial=0.0)) * self.time_step**2)
+        pushed = float(np.abs(push).max(initial=0.0)) * self.time_step * self.time_step
+        way = max(speed * self.time_step, pushed)
         return Bounds(max(self.way, _MEASURE * way), self.time_step)
 
     def check(self, linear: Floats, *others: Floats, step: int, most: float = np.inf) -> None:
         """EngineError unless no linear velocity (n, 3) is beyond measure, and all finite.
+
+        Where the time step leaves no finite measure, every step goes beyond it.
 
         `most`: no number is larger, as the engine could not go on from it.
         """
@@ -60,7 +63,7 @@ class Bounds:
             for values in (linear, *others)
         )
         fastest = float(np.abs(linear).max(initial=0.0)) if finite else np.inf
-        if fastest * self.time_step <= self.way:
+        if fastest * self.time_step <= self.way < np.inf:
             return
         what = "" if not finite else f": a body moves at {fastest:g}"
         raise refuse(DIVERGED, f"The simulation has diverged by step {step}{what}.")

@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.counting import counted
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
 from colladaphy_schema.rows import Column, Masked, Rows
 
-__all__ = ["CHECKS", "Sources", "sources_of"]
+__all__ = ["CHECKS", "NUMBER_ARRAYS", "TOKEN_ARRAYS", "Sources", "params_of", "sources_of"]
 
 Array = NDArray[Any]
 
 
-_TOKENS = ("Name_array", "IDREF_array", "SIDREF_array", "token_array")
-_NUMBERS = ("float_array", "int_array", "bool_array")
-_ARRAYS = (*_NUMBERS, *_TOKENS)
+TOKEN_ARRAYS = ("Name_array", "IDREF_array", "SIDREF_array", "token_array")
+NUMBER_ARRAYS = ("float_array", "int_array", "bool_array")
+_ARRAYS = (*NUMBER_ARRAYS, *TOKEN_ARRAYS)
 _WORDS = frozenset({"name", "idref", "sidref", "token", "string"})
 _FIGURES = re.compile(r"(float|double|int|half|fixed)([234])?(?:x([234]))?\Z", re.IGNORECASE)
 
@@ -54,7 +55,44 @@ class ParamRows(Rows):
     """Parameters of accessors."""
 
     __slots__ = ()
+    name: Column[list[str]] = Column("name", "attribute", "token", default="")
     type: Column[list[str]] = Column("type", "attribute", "token", default="")
+
+
+class Params:
+    """The parameters of accessors: name, type and element of each."""
+
+    def __init__(self, context: Context) -> None:
+        rows = context.rows(AccessorRows, "accessor")
+        params = context.children(rows, "param", ParamRows)
+        assert rows.ordinals is not None and params.ordinals is not None
+        self._by_accessor: dict[int, list[tuple[str, str, int]]] = {
+            element: [] for element in rows.ordinals.tolist()
+        }
+        for owner, name, type, element in zip(
+            rows.ordinals[params.owner].tolist(), params.name, params.type,
+            params.ordinals.tolist(), strict=True,
+        ):  # fmt: skip
+            self._by_accessor[owner].append((name, type, element))
+
+    def of(self, accessor: int) -> list[tuple[str, str, int]]:
+        """The parameters of an accessor."""
+        return self._by_accessor[accessor]
+
+    def each(self) -> Iterable[list[tuple[str, str, int]]]:
+        """The parameters of all accessors, one after the other."""
+        return self._by_accessor.values()
+
+    def width(self, accessor: int, stride: int) -> int:
+        """How many values an item has; those without a name are passed over, if others have one."""
+        mine = self._by_accessor[accessor]
+        named = [type for name, type, _ in mine if name] or [type for _, type, _ in mine]
+        return sum(map(_size, named)) if named else stride
+
+
+def params_of(context: Context) -> Params:
+    """The parameters of the accessors of a document."""
+    return context.shared(Params)
 
 
 class Sources:
@@ -80,8 +118,8 @@ class Sources:
         at = mine[good]
         self.accessors[at] = rows.ordinals[good]
         self.arrays[at] = context.targets(rows.source)[good]
-        self.starts[at], self.steps[at] = rows.offset[good], rows.stride[good]
-        self.counts[at] = rows.count[good]
+        self.starts[at] = counted(rows.offset[good])
+        self.steps[at], self.counts[at] = counted(rows.stride[good]), counted(rows.count[good])
         # Of those that read past the end it cannot be told how many items there are.
         last = self.starts + self.steps * (self.counts - 1) + 1
         lengths = np.array([self._whole(array) for array in self.arrays.tolist()], np.int64)
@@ -121,7 +159,7 @@ class Sources:
     def words(self, row: int) -> list[str] | None:
         """The words of a source of names."""
         array = int(self.arrays[row])
-        if array < 0 or self.context.name(array) not in _TOKENS:
+        if array < 0 or self.context.name(array) not in TOKEN_ARRAYS:
             return None
         return words_of(self.context, array)
 
@@ -185,15 +223,7 @@ def accessors(context: Context) -> Iterator[Hit]:
         return
     assert rows.ordinals is not None
     lengths = array_lengths(context)
-    params = context.children(rows, "param", ParamRows)
-    types: list[list[str]] = [[] for _ in range(len(rows))]
-    places: list[list[int]] = [[] for _ in range(len(rows))]
-    assert params.ordinals is not None
-    for owner, type, element in zip(
-        params.owner.tolist(), params.type, params.ordinals.tolist(), strict=True
-    ):
-        types[owner].append(type)
-        places[owner].append(element)
+    params = params_of(context)
     targets = context.targets(rows.source).tolist()
     stated = context.shared(_stated)
     columns = (rows.ordinals, rows.offset, rows.stride, rows.count)
@@ -202,7 +232,8 @@ def accessors(context: Context) -> Iterator[Hit]:
     ):
         array = targets[row]
         length = lengths.get(array)
-        sizes = [_size(type) for type in types[row]]
+        mine = params.of(element)
+        sizes = [_size(type) for _, type, _ in mine]
         if sum(sizes) > stride:
             message = f"The stride is {stride}, but there are {sum(sizes)} values in an item."
             yield Hit(geometry_rules.ACCESSOR_STRIDE, element, message, attribute="stride")
@@ -218,7 +249,7 @@ def accessors(context: Context) -> Iterator[Hit]:
                 key = "offset" if offset >= whole else "count"
                 yield Hit(geometry_rules.ACCESSOR_RANGE, element, message, (array,), key)
         if array >= 0:
-            yield from _types(context, array, types[row], places[row])
+            yield from _types(context, array, mine)
 
 
 def _stated(context: Context) -> dict[int, int]:
@@ -237,11 +268,11 @@ def _size(type: str) -> int:
     return int(match[2] or 1) * int(match[3] or 1)
 
 
-def _types(context: Context, array: int, types: list[str], places: list[int]) -> Iterator[Hit]:
+def _types(context: Context, array: int, params: list[tuple[str, str, int]]) -> Iterator[Hit]:
     name = context.name(array)
-    for type, element in zip(types, places, strict=True):
-        wrong = type.lower() in _WORDS if name in _NUMBERS else bool(_FIGURES.match(type))
-        if wrong and (name in _NUMBERS or name in _TOKENS):
+    for _, type, element in params:
+        wrong = type.lower() in _WORDS if name in NUMBER_ARRAYS else bool(_FIGURES.match(type))
+        if wrong and (name in NUMBER_ARRAYS or name in TOKEN_ARRAYS):
             message = f"The parameter is of type {type!r}, but its values are in a <{name}>."
             yield Hit(geometry_rules.PARAM_TYPE, element, message, (array,), "type")
             return

@@ -47,7 +47,7 @@ def convex_meshes(context: Context) -> Iterator[Hit]:
                 f"Faces of {name} are wound both ways.",
                 (geometry,),
             )
-        elif abs(surface.volume) <= 1e-9 * surface.extent**3:
+        elif abs(surface.volume) <= 1e-9 * _cube(surface.extent):
             yield Hit(
                 geometry_rules.NO_VOLUME,
                 element,
@@ -86,6 +86,11 @@ def _dent(surface: Surface) -> float:
     return float(heights.max(initial=0.0))
 
 
+def _cube(size: float) -> float:
+    """Infinite where a power would raise OverflowError."""
+    return size * size * size
+
+
 def moving_meshes(context: Context) -> Iterator[Hit]:
     """Meshes of bodies that move whose mass or inertia has to be computed, and cannot."""
     shapes = shapes_of(context)
@@ -111,7 +116,7 @@ def moving_meshes(context: Context) -> Iterator[Hit]:
                 f"Faces of {name} are wound both ways.",
                 related,
             )
-        elif abs(surface.volume) <= 1e-9 * surface.extent**3:
+        elif abs(surface.volume) <= 1e-9 * _cube(surface.extent):
             yield Hit(
                 geometry_rules.NO_VOLUME, element, f"The mesh of {name} has no volume.", related
             )

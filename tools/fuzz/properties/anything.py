@@ -7,12 +7,11 @@ import random
 from typing import Any
 
 from hypothesis import strategies as st
-from tests.strategies.worlds import worlds
 
 import colladaphy
 from colladaphy import ColladaError, World
 from colladaphy.source import pack
-from colladaphy.testing import mutants
+from colladaphy.testing import mutants, worlds
 from tools.fuzz.registry import note, of
 
 __all__ = ["survives"]
@@ -68,9 +67,7 @@ def anything_mutants(document: bytes) -> None:
     survives(note(document))
 
 
-@of(worlds, _seeds, weight=2)
-def anything_damaged(world: World, seed: int) -> None:
-    """Files of Worlds, truncated, with bytes that flipped, that are gone, that are there twice."""
+def _damaged(world: World, seed: int) -> bytes:
     stream, chance = io.BytesIO(), random.Random(seed)
     colladaphy.write(world, stream)
     data = bytearray(stream.getvalue())
@@ -89,18 +86,27 @@ def anything_damaged(world: World, seed: int) -> None:
             case _:
                 other = chance.randrange(len(data) + 1)
                 data[place:place] = data[other : other + span]
-    survives(bytes(data))
+    return bytes(data)
 
 
-@of(worlds, _seeds)
-def anything_archived(world: World, seed: int) -> None:
-    """Archives whose bytes are damaged."""
+def _archived(world: World, seed: int) -> bytes:
     stream, chance = io.BytesIO(), random.Random(seed)
     colladaphy.write(world, stream)
     data = bytearray(pack(stream.getvalue(), name="a.dae", others={"b.png": b"\0" * 20}))
     for _ in range(chance.randint(1, 3)):
-        place = chance.randrange(len(data))
-        data[place] = chance.randrange(256)
+        data[chance.randrange(len(data))] = chance.randrange(256)
     if chance.random() < 0.2:
         del data[chance.randrange(len(data)) :]
-    survives(bytes(data))
+    return bytes(data)
+
+
+@of(lambda: st.builds(_damaged, worlds(), _seeds()), weight=2)
+def anything_damaged(data: bytes) -> None:
+    """Files of Worlds, truncated, with bytes that flipped, that are gone, that are there twice."""
+    survives(data)
+
+
+@of(lambda: st.builds(_archived, worlds(), _seeds()))
+def anything_archived(data: bytes) -> None:
+    """Archives whose bytes are damaged."""
+    survives(data)

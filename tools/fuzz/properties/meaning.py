@@ -12,10 +12,10 @@ from lxml import etree
 from tests.mapper.reference import Reference
 from tests.mapper.test_instances import check as agrees
 from tests.mapper.test_instances import documents as nested
-from tests.strategies.worlds import worlds
 
 import colladaphy
 from colladaphy import World, compare
+from colladaphy.testing import worlds
 from tools.fuzz.properties.documents import valid_loads
 from tools.fuzz.registry import note, of
 
@@ -30,10 +30,6 @@ NS = "{http://www.collada.org/2008/03/COLLADASchema}"
 
 def _seeds() -> st.SearchStrategy[int]:
     return st.integers(0, 2**32)
-
-
-def _calm() -> st.SearchStrategy[World]:
-    return worlds(wild=False)
 
 
 def _edited(data: bytes, seed: int) -> bytes:
@@ -55,17 +51,25 @@ def _written(world: World) -> bytes:
     return stream.getvalue()
 
 
-@of(_calm, _seeds, weight=2)
-def edited_worlds_load(world: World, seed: int) -> None:
+def _edited_worlds() -> st.SearchStrategy[bytes]:
+    return st.builds(_edited, worlds(extreme=False).map(_written), _seeds())
+
+
+def _edited_bases() -> st.SearchStrategy[bytes]:
+    bases = st.sampled_from(_BASES).map(Path.read_bytes)
+    return st.builds(_edited, bases, _seeds())
+
+
+@of(_edited_worlds, weight=2)
+def edited_worlds_load(document: bytes) -> None:
     """What validation calls valid, loading takes; Worlds whose numbers and references changed."""
-    valid_loads(note(_edited(_written(world), seed)))
+    valid_loads(note(document))
 
 
-@of(lambda: st.sampled_from([path.name for path in _BASES]), _seeds, weight=2)
-def edited_bases_load(name: str, seed: int) -> None:
+@of(_edited_bases, weight=2)
+def edited_bases_load(document: bytes) -> None:
     """What validation calls valid, loading takes; the bases of the rules, changed."""
-    data = next(path for path in _BASES if path.name == name).read_bytes()
-    valid_loads(note(_edited(data, seed)))
+    valid_loads(note(document))
 
 
 @of(nested, weight=2)

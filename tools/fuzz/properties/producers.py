@@ -37,8 +37,10 @@ def _quirks() -> st.SearchStrategy[frozenset[str]]:
     return st.sets(st.sampled_from(robots.QUIRKS)).map(frozenset)
 
 
-def _random() -> st.SearchStrategy[int]:
-    return st.integers(0, 2**32)
+def _damaged() -> st.SearchStrategy[bytes]:
+    seeds = st.integers(0, 2**32)
+    files = st.sampled_from(sorted(FILES.items()))
+    return st.builds(lambda file, seed: damaged(file[1], Random(seed)), files, seeds)
 
 
 @of(_flat)
@@ -55,11 +57,11 @@ def producer_robots(scene: Scene, producer: str, quirks: frozenset[str]) -> None
     assert_means(accept(note(robots.write(scene, producer, quirks))), scene)
 
 
-@of(lambda: st.sampled_from(sorted(FILES)), _random, weight=2)
-def producer_damaged(name: str, seed: int) -> None:
+@of(_damaged, weight=2)
+def producer_damaged(document: bytes) -> None:
     """Damaged files come in, valid and with one meaning, or are refused."""
     try:
-        accept(note(damaged(FILES[name], Random(seed))), errors=True, outside=False)
+        accept(note(document), errors=True, outside=False)
     except ColladaError as error:
         # A unit of length that has no length is beyond repair.
         assert [finding.code for finding in error.findings] == ["physics-dimension"]

@@ -7,7 +7,6 @@ from random import Random
 
 import numpy as np
 from hypothesis import strategies as st
-from tests.strategies.worlds import worlds
 from tests.world.rebuilding import rebuilt
 
 import colladaphy
@@ -16,6 +15,7 @@ from colladaphy.engines import create_engine
 from colladaphy.errors import EngineError
 from colladaphy.findings import Severity
 from colladaphy.source import pack
+from colladaphy.testing import worlds
 from colladaphy.world import EngineState
 from tools.fuzz.registry import note, of
 
@@ -134,15 +134,16 @@ def world_replaced(first: World, second: World) -> None:
     reads_back(document, stored(second).load())
 
 
-@of(worlds, _engines, weight=2)
-def world_runs(world: World, name: str) -> None:
+@of(worlds, _engines, st.booleans, weight=2)
+def world_runs(world: World, name: str, everyday: bool) -> None:
     """An engine runs a World or refuses it with reasons; nothing else happens to it."""
+    if everyday or world.time_step is None:
+        world.time_step = 1 / 240
+    world.engine_state = None
     before = rebuilt(world)
     engine = create_engine(name)
     findings = engine.check(world)
     assert compare(world, before) == []
-    world.time_step = before.time_step = 1 / 240
-    world.engine_state = before.engine_state = None
     refused = any(finding.severity is Severity.ERROR for finding in findings)
     try:
         engine.load(world)

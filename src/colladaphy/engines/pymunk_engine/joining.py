@@ -39,8 +39,8 @@ def allowed(
     # Conjugate gradients on the rows, each scaled to one: joints that say the same twice do no
     # harm, and a scene of thousands of them needs no matrix.
     rest = scale * wrong
-    least = (_ENOUGH * float(np.sqrt(np.sum(rest * rest)))) ** 2
     ahead, size = rest.copy(), float(np.sum(rest * rest))
+    least = _ENOUGH * _ENOUGH * size
     for _ in range(_ROUNDS * matrix.count):
         if size <= least:
             break

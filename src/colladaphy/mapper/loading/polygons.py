@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.counting import counted
 from colladaphy.mapper.loading.ears import triangles_of
 
 __all__ = ["corner_layout", "triangulated"]
@@ -19,10 +20,11 @@ def corner_layout(rows: Any) -> tuple[Array, Array]:
     count = len(rows)
     inputs = rows.input
     stride = np.ones(count, np.int64)
-    np.maximum.at(stride, inputs.owner, inputs.offset.astype(np.int64) + 1)
+    offsets = counted(inputs.offset)
+    np.maximum.at(stride, inputs.owner, offsets + 1)
     offset = np.zeros(count, np.int64)
     vertex = np.array([semantic == "VERTEX" for semantic in inputs.semantic], np.bool_)
-    offset[inputs.owner[vertex]] = inputs.offset[vertex]
+    offset[inputs.owner[vertex]] = offsets[vertex]
     return stride, offset
 
 
@@ -63,7 +65,7 @@ def _holes(outlines: Any, stride: Array, offset: Array) -> dict[int, list[Array]
     made: dict[int, list[Array]] = {}
     for place, owner in enumerate(inner.owner.tolist()):
         row = int(outlines.owner[owner])
-        corners = inner.value[place][int(offset[row]) :: int(stride[row])].astype(np.int64)
+        corners = counted(inner.value[place][int(offset[row]) :: int(stride[row])])
         made.setdefault(element[owner], []).append(corners)
     return made
 
@@ -75,13 +77,13 @@ def _collect(
         return
     values = found.value
     for place, (row, order) in enumerate(zip(owner.tolist(), found.ordinals.tolist(), strict=True)):
-        corners = values[place][int(offset[row]) :: int(stride[row])].astype(np.int64)
+        corners = counted(values[place][int(offset[row]) :: int(stride[row])])
         lists[row].append((order, corners))
 
 
 def _polylist(lists: list[Array], sizes: Array, points: Array) -> Array:
     corners = np.concatenate(lists) if lists else np.zeros(0, dtype=np.int64)
-    sizes = sizes.astype(np.int64)
+    sizes = counted(sizes)
     if len(sizes) and np.all(sizes == 3) and len(corners) == 3 * len(sizes):
         return np.asarray(corners.reshape(-1, 3))
     ends = np.cumsum(sizes)

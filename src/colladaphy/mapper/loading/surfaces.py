@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.counting import counted
 from colladaphy.links.pool import expanded
 from colladaphy.mapper.loading.polygons import corner_layout, triangulated
 
@@ -116,9 +117,9 @@ def _source_rows(sources: Any, wanted: Array) -> tuple[list[Array], list[str | N
     if values is None:
         return result, faults
     begin, end = values.offsets[place], values.offsets[place + 1]
-    counts = accessors.count[accessor[mine]].astype(np.int64)
-    stride = accessors.stride[accessor[mine]].astype(np.int64)
-    offset = accessors.offset[accessor[mine]].astype(np.int64)
+    counts = counted(accessors.count[accessor[mine]])
+    stride = counted(accessors.stride[accessor[mine]])
+    offset = counted(accessors.offset[accessor[mine]])
     places = _named_places(accessors)[accessor[mine]]
     last = offset + (counts - 1) * stride + places.max(axis=1, initial=0)
     short = (stride < 1) | ((counts > 0) & (last >= end - begin))
@@ -166,7 +167,7 @@ def _triangles(rows: Any) -> list[Array]:
     counts = corners // 3 * 3
     step, who = expanded(np.zeros(len(counts), np.int64), counts)
     indices = values.values[values.offsets[:-1][who] + mine_offset[who] + step * mine_stride[who]]
-    faces = indices.astype(np.int64).reshape(-1, 3)
+    faces = counted(indices).reshape(-1, 3)
     result = [_NO_FACES] * len(rows)
     stops = np.cumsum(counts) // 3
     for row, stop, size in zip(owner.tolist(), stops.tolist(), (counts // 3).tolist(), strict=True):
