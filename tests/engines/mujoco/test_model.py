@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from time import perf_counter
 from typing import Any
 
@@ -124,6 +125,38 @@ def test_members_of_unions_are_where_they_are() -> None:
         if engine._model.geom_sids[i] == union.sid
     )
     np.testing.assert_allclose(got, expected, atol=1e-9)
+
+
+# A pyramid: the centre of its volume is at a quarter of its height, that of its surface of base 2
+# and height 1 at sqrt(2)/(1 + sqrt(2))/3, as its sides have 4 sqrt(2)/(4 + 4 sqrt(2)) of the area.
+PYRAMID = np.array([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 1)], dtype=float)
+SLOPES = [(0, 1, 4), (1, 2, 4), (2, 3, 4), (3, 0, 4), (0, 2, 1), (0, 3, 2)]
+CENTRES = {False: 0.25, True: math.sqrt(2) / (1 + math.sqrt(2)) / 3}
+
+
+@pytest.mark.parametrize("hollow", [False, True])
+@pytest.mark.parametrize("member", [False, True])
+def test_meshes_are_about_their_own_centres(hollow: bool, member: bool) -> None:
+    """Of a surface or a volume: it stands on the ground where the closed form says."""
+    height = 0.25 + CENTRES[hollow]  # of a table of 0.25
+    world = table()
+    body = world.create_mesh(2, (0, 0, height), PYRAMID, SLOPES, "oak", hollow=hollow)
+    if member:
+        other = world.create_mesh(3, (3, 0, height), body.mesh, None, "oak", hollow=hollow)
+        world.create_union(4, [body, other])
+    engine = loaded(world)
+    compiled, data = engine._model.compiled, engine._data
+    for geom in np.flatnonzero(np.asarray(compiled.geom_dataid) >= 0).tolist():
+        mesh = compiled.geom_dataid[geom]
+        start, count = compiled.mesh_vertadr[mesh], compiled.mesh_vertnum[mesh]
+        vertices = np.array(compiled.mesh_vert[start : start + count], dtype=float)
+        places = vertices @ np.reshape(data.geom_xmat[geom], (3, 3)).T + data.geom_xpos[geom]
+        assert places[:, 2].min() == pytest.approx(0.25, abs=1e-6)
+        assert places[:, 2].max() == pytest.approx(1.25, abs=1e-6)
+    assert engine._data.ncon == 0 or np.abs(data.contact.dist).max() < 1e-6
+    Simulation(world, "mujoco").run(240)
+    assert body.position[2] == pytest.approx(height, abs=2e-3)
+    assert body.velocity_at((0, 0, 0)) == pytest.approx(np.zeros(3), abs=1e-2)
 
 
 def test_convex_hulls_are_reported_only_where_they_differ() -> None:
