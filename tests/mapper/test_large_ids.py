@@ -22,7 +22,11 @@ def test_an_id_of_any_size_loads(number: int) -> None:
     colladaphy.write(world, stream)
     data = re.sub(rb' uid="\d+"', f' uid="{number}"'.encode(), stream.getvalue())
     assert data != stream.getvalue()
-    again = colladaphy.read(data).load()
+    document = colladaphy.read(data)
+    again = document.load()
     fits = number < 2**63 and number >= -(2**63)
     assert [body.uid for body in again.bodies] == [number if fits else 0] * 2
     assert [joint.uid for joint in again.joints] == [number if fits else 0]
+    codes = [finding.code for finding in document.report]
+    assert codes == ([] if fits else ["load-id-large"] * 3)
+    assert all(finding.line for finding in document.report)

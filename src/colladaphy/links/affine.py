@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from colladaphy.links.poses import DEGREE
 from colladaphy.links.sums import exact_sum
 
-__all__ = ["lookat_matrix", "skew_matrix"]
+__all__ = ["lookat_matrix", "skew_matrix", "stretch_of"]
 
 Matrix = tuple[tuple[float, float, float, float], ...]
 
@@ -57,3 +61,27 @@ def skew_matrix(values: Sequence[float]) -> Matrix:
         a, b, d = (shear * along[i] * across[j] + (1.0 if i == j else 0.0) for j in range(3))
         rows.append((a, b, d, 0.0))
     return (*rows, (0.0, 0.0, 0.0, 1.0))
+
+
+def stretch_of(matrix: NDArray[Any]) -> str:
+    """What a transform (4, 4) does beside moving and turning, in words: "scales by 0.001".
+
+    Of factors that differ, those along the node's own axes are told.
+    """
+    inner = np.asarray(matrix, np.float64)[:3, :3]
+    with np.errstate(all="ignore"):
+        factors = np.sqrt(np.sum(inner * inner, axis=0))
+        angles = inner.T @ inner / np.outer(factors, factors) - np.eye(3)
+        mirrored = bool(np.linalg.det(inner) < 0.0)
+    told = []
+    if np.abs(factors - factors.mean()).max() <= 1e-4 * factors.max():
+        if abs(factors.mean() - 1.0) > 1e-6:
+            told.append(f"scales by {factors.mean():.6g}")
+    else:
+        shown = ", ".join(f"{factor:.6g}" for factor in factors.tolist())
+        told.append(f"scales its axes by {shown}")
+    if not np.abs(np.nan_to_num(angles)).max() <= 1e-4:
+        told.append("skews")
+    if mirrored:
+        told.append("mirrors")
+    return " and ".join(told) or "is not rigid"

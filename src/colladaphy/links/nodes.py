@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from colladaphy.errors import DocumentError
 from colladaphy.findings import Severity
 from colladaphy.links import rules
+from colladaphy.links.affine import stretch_of
 from colladaphy.links.names import c
 from colladaphy.links.pool import Pool, Table
 from colladaphy.links.poses import Poses
@@ -89,7 +90,7 @@ class Placement:
             rigid, exact = rigid_parts(np.array([matrices[row] for row in rows[mixed].tolist()]))
             found.put(mixed, rigid)
             for row in rows[mixed[~exact]].tolist():
-                self._note_not_rigid(row)
+                self._note_not_rigid(row, matrices[row])
         return found, errors
 
     def above(self) -> Array:
@@ -294,14 +295,14 @@ class Placement:
         home = int(self.nodes.homes(np.array([row]))[0])
         return self._pool.resources[home], int(self.nodes.ordinals[row])
 
-    def _note_not_rigid(self, row: int) -> None:
+    def _note_not_rigid(self, row: int, matrix: Array) -> None:
         if row in self._noted:
             return
         self._noted.add(row)
         home, element = self._place(row)
         name = self.nodes.texts("id")[row] or self.nodes.texts("name")[row] or "?"
         message = (
-            f"The transform of node {name!r} scales, skews or mirrors; "
+            f"The transform of node {name!r} {stretch_of(matrix)}; "
             "its rotation and translation are taken."
         )
         self._resource.note(rules.NOT_RIGID, element, message, home=home)

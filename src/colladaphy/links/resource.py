@@ -230,10 +230,11 @@ class Resource:
         message: str | None = None,
         *,
         home: Resource | None = None,
+        severity: Severity | None = None,
     ) -> None:
         """Add a finding about an element of `home`, or of this document, to this report."""
         where = self if home is None else home
         element = None if number is None else where.element(number)
-        finding = rule.at(element, message, file=where.file or self.file)
+        finding = rule.at(element, message, file=where.file or self.file, severity=severity)
         self.report.add(finding)
         _log.log(_LEVELS[finding.severity], "%s", finding)

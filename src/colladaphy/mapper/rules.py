@@ -190,6 +190,13 @@ SYSTEM_ID_TAKEN = Rule(
     "Load into an empty World to keep all system ids.",
     "thesis 6.1",
 )
+ID_LARGE = Rule(
+    "load-id-large",
+    _WARNING,
+    "An id has more than 64 bits, and another one is given in its place.",
+    "A World's ids are whole numbers of 64 bits with a sign.",
+    "thesis 6.1",
+)
 HULL = Rule(
     "load-hull",
     _INFO,
@@ -252,6 +259,7 @@ RULES = (
     MATERIAL_BAD,
     MATERIAL_RENAMED,
     SYSTEM_ID_TAKEN,
+    ID_LARGE,
     HULL,
     OPEN,
     STALE,

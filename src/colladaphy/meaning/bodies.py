@@ -12,6 +12,7 @@ from colladaphy.meaning import physics_rules
 from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.moments import faults_of_inertias, shown
 from colladaphy.meaning.shape_table import shapes_of
 
 __all__ = [
@@ -22,7 +23,6 @@ Array = NDArray[Any]
 
 
 _LARGE, _SMALL = 1e3, 1e-5
-_ROUNDING = 1e-3
 
 
 def masses(context: Context) -> Iterator[Hit]:
@@ -51,26 +51,13 @@ def inertias(context: Context) -> Iterator[Hit]:
     rows = np.flatnonzero(bodies.inertia_elements >= 0)
     if not len(rows):
         return
-    values = bodies.inertias[rows]
-    good = np.all((values >= 0.0) & (values < np.inf), axis=1)
-    for place in np.flatnonzero(~good).tolist():
-        yield Hit(physics_rules.INERTIA_VALUE, int(bodies.inertia_elements[rows[place]]),
-                  f"The inertia is {_shown(values[place])}.")  # fmt: skip
-    rows, values = rows[good], np.sort(values[good], axis=1)
-    moves = bodies.moves[rows]
-    zero = moves & (values[:, 0] == 0.0)
-    none = moves & (values[:, 2] == 0.0)
-    broken = ~none & (values[:, 0] + values[:, 1] < values[:, 2] * (1.0 - _ROUNDING))
-    for place in np.flatnonzero(zero | broken).tolist():
-        element = int(bodies.inertia_elements[rows[place]])
-        shown = _shown(bodies.inertias[rows[place]])
-        if broken[place]:
-            yield Hit(physics_rules.INERTIA_TRIANGLE, element, f"The inertia is {shown}.")
-        else:
-            yield Hit(
-                physics_rules.INERTIA_ZERO, element, f"The inertia of a body that moves is {shown}."
-            )
-    left = np.flatnonzero(moves & ~zero & ~broken)
+    faults = faults_of_inertias(bodies.inertias[rows], bodies.moves[rows])
+    for place, (rule, message) in sorted(faults.items()):
+        yield Hit(rule, int(bodies.inertia_elements[rows[place]]), message)
+    values = np.sort(bodies.inertias[rows], axis=1)
+    moves = bodies.moves[rows].copy()
+    moves[list(faults)] = False
+    left = np.flatnonzero(moves)
     if not len(left):
         return
     shapes = shapes_of(context)
@@ -80,19 +67,15 @@ def inertias(context: Context) -> Iterator[Hit]:
     most[told], least[told] = np.inf, 0.0
     for place in np.flatnonzero(largest > _LARGE * most).tolist():
         yield Hit(physics_rules.INERTIA_SIZE, int(bodies.inertia_elements[rows[left[place]]]),
-                  f"The inertia is {_shown(bodies.inertias[rows[left[place]]])}, but mass and "
+                  f"The inertia is {shown(bodies.inertias[rows[left[place]]])}, but mass and "
                   f"shapes allow {most[place]:.3g} at most.")  # fmt: skip
     for place in np.flatnonzero(largest < _SMALL * least).tolist():
         row = rows[left[place]]
         message = (
-            f"The inertia is {_shown(bodies.inertias[row])}; of such a mass and size one expects "
+            f"The inertia is {shown(bodies.inertias[row])}; of such a mass and size one expects "
             f"about {least[place]:.3g}."
         )
         yield Hit(physics_rules.INERTIA_SIZE, int(bodies.inertia_elements[row]), message)
-
-
-def _shown(values: Array) -> str:
-    return " ".join(f"{value:g}" for value in values.tolist())
 
 
 CHECKS = (masses, inertias)

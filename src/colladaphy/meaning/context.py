@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.columns.reading import Document
-from colladaphy.findings import Rule
+from colladaphy.errors import ColladaError
+from colladaphy.findings import Rule, Severity
 from colladaphy.links.names import c
 from colladaphy.links.nodes import Placement
 from colladaphy.links.pool import Pool
@@ -66,7 +67,11 @@ class _Quiet(Resource):
         message: str | None = None,
         *,
         home: Resource | None = None,
+        severity: Severity | None = None,
     ) -> None:
+        """Nothing."""
+
+    def note_broken(self, error: ColladaError, severity: Severity | None = None) -> None:
         """Nothing."""
 
 

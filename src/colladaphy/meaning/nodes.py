@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from colladaphy.links.affine import skew_matrix, stretch_of
 from colladaphy.links.rules import NOT_RIGID, SEVERAL_PLACES
 from colladaphy.links.steps import matrix_of, own_transforms
 from colladaphy.meaning import physics_rules
 from colladaphy.meaning.body_table import bodies_of
-from colladaphy.meaning.context import Context
+from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.models import ends
 from colladaphy.meaning.node_table import Nodes, nodes_of, odd_transforms
 from colladaphy_schema.scene_columns import NodeTypeRows
 
 __all__ = ["CHECKS", "doubtful"]
+
+Array = NDArray[Any]
 
 
 def rigid(context: Context) -> Iterator[Hit]:
@@ -38,8 +43,20 @@ def rigid(context: Context) -> Iterator[Hit]:
     for element, instances in users.items():
         name = context.name(element)
         node = context.label(int(context.parent[element]))
-        message = f"The {name} of {node} scales, skews or mirrors, and a body stands in it."
+        done = stretch_of(_matrix(context, element))
+        message = f"The {name} of {node} {done}, and a body stands in it."
         yield Hit(NOT_RIGID, element, message, tuple(instances[:3]))
+
+
+def _matrix(context: Context, element: int) -> Array:
+    """The transform (4, 4) that a <matrix>, <scale> or <skew> is."""
+    name = context.name(element)
+    values = context.at(FloatRows, np.array([element])).value.values.reshape(-1)
+    if name == "matrix":
+        return np.asarray(values.reshape(4, 4))
+    if name == "skew":
+        return np.array(skew_matrix(values.tolist()))
+    return np.diag([*values.tolist(), 1.0])
 
 
 def _cancels(context: Context, nodes: Nodes, target: int) -> bool:

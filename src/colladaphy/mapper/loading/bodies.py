@@ -16,8 +16,10 @@ from numpy.typing import NDArray
 from colladaphy.links.nodes import Sums
 from colladaphy.links.pool import concatenated, taken
 from colladaphy.links.poses import Poses, rotate_vectors, unit_quaternions
+from colladaphy.mapper import rules
 from colladaphy.mapper.loading.deciding import Deciding, Prefer
 from colladaphy.mapper.loading.found import FoundBodies
+from colladaphy.mapper.loading.impossible import note_impossible
 from colladaphy.mapper.loading.materials import MaterialTable
 from colladaphy.mapper.loading.members import Members, complete, read_members
 from colladaphy.mapper.loading.meshes import Geometries
@@ -123,6 +125,7 @@ class _Loading:
         self._kept = _of(there, found.bodies, -1)
         """(n,) the rows of the profile, -1 for none."""
         kept = self._kept
+        note_impossible(tables, found, values, instance_values, self._profile.bodies, kept)
         self._is_union = (kept >= 0) & _of(self._profile.union, kept)
         counts = np.bincount(members.owner, minlength=len(found))
         self._first = np.cumsum(counts) - counts
@@ -267,6 +270,7 @@ class _Loading:
         parts.uids[tops[there]] = np.where(
             profile.bodies.has_uid[mine], profile.bodies.uid[mine], 0
         )
+        self._note_large(there, mine)
         sids = tables.bodies.texts("sid")
         wanted = _system_ids([sids[row] for row in found.bodies[there].tolist()])
         explicit = profile.bodies.has_sid[mine] & (profile.bodies.sid[mine] != 0)
@@ -291,6 +295,24 @@ class _Loading:
             if exact is not None and same_token(exact, stated):
                 name = exact
             parts.names[top] = name
+
+    def _note_large(self, bodies: Array, kept: Array) -> None:
+        """Note the bodies of which an id, or one of what they hold, is too large."""
+        profile, tables = self._profile, self._tables
+        if not (profile.bodies.large.any() or profile.leaves.large.any()
+                or profile.unions.large.any()):  # fmt: skip
+            return
+        rows = self._found.bodies[bodies]
+        large = profile.bodies.large[kept].copy()
+        for parts, owner in ((profile.leaves, profile.leaf_owner),
+                             (profile.unions, profile.union_owner)):  # fmt: skip
+            large |= np.isin(rows, owner[parts.large])
+        for row in np.unique(rows[large]).tolist():
+            home = tables.pool.resources[int(tables.bodies.homes(np.array([row]))[0])]
+            sid = tables.bodies.texts("sid")[row]
+            message = f"An id of the body {sid!r} has more than 64 bits."
+            tables.resource.note(rules.ID_LARGE, int(tables.bodies.ordinals[row]), message,
+                                 home=home)  # fmt: skip
 
     def _fixed(self) -> Array:
         values, kept, profile = self._values, self._kept, self._profile

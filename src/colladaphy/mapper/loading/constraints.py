@@ -42,6 +42,8 @@ class Constraints:
     has_spring: Array
     kept: Array
     """(n,) whether the profile has a joint."""
+    large: Array
+    """(n,) whether an id of that has more than 64 bits."""
     uids: Array
     kept_sids: Array
     kept_names: list[str | None]
@@ -126,8 +128,10 @@ def _profile(constraints: Any, count: int) -> dict[str, Any]:
     kept = np.zeros(count, np.bool_)
     kept[owner] = True
     uids, sids = np.zeros(count, np.int64), np.full(count, -1, np.int64)
-    uid, has_uid = countable(joints.uid, len(joints))
-    sid, has_sid = countable(joints.sid, len(joints))
+    uid, has_uid, large_uid = countable(joints.uid, len(joints))
+    sid, has_sid, large_sid = countable(joints.sid, len(joints))
+    large = np.zeros(count, np.bool_)
+    large[owner] = large_uid | large_sid
     uids[owner] = np.where(has_uid, uid, 0)
     sids[owner] = np.where(has_sid, sid, -1)
     names: list[str | None] = [None] * count
@@ -143,7 +147,8 @@ def _profile(constraints: Any, count: int) -> dict[str, Any]:
             )
             frames.put(2 * owner[frame.owner] + side, poses)
     made: dict[str, Any] = {
-        "kept": kept, "uids": uids, "kept_sids": sids, "kept_names": names, "exact_frames": frames,
+        "kept": kept, "large": large, "uids": uids, "kept_sids": sids, "kept_names": names,
+        "exact_frames": frames,
         "exact_springs": np.zeros((count, 2, 3)),
         "has_exact_spring": np.zeros((count, 2), np.bool_),
     }  # fmt: skip

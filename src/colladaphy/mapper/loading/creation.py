@@ -92,8 +92,9 @@ def _create(
     except WorldError as error:
         if end - begin == 1:
             created[begin] = False
-            message = f"{error.findings[0].message} The body is skipped."
             found = loaded.found
+            name = tables.bodies.texts("sid")[int(found.bodies[begin])] or "?"
+            message = f"The body {name!r} is skipped: {error.findings[0].message}"
             home = tables.pool.resources[int(found.homes[begin])]
             ordinal = int(tables.body_instances.ordinals[found.rows[begin]])
             tables.resource.note(rules.BAD_VALUE, ordinal, message, home=home)

@@ -157,6 +157,12 @@ class _Joints:
             self._extend(columns, order, begin, middle)
             self._extend(columns, order, middle, end)
 
+    def _note_large(self, row: int) -> None:
+        table = self._tables.constraints
+        home = self._tables.pool.resources[int(table.homes(np.array([row]))[0])]
+        message = f"An id of the joint {table.texts('sid')[row]!r} has more than 64 bits."
+        self._tables.resource.note(rules.ID_LARGE, int(table.ordinals[row]), message, home=home)
+
     def _identities(self) -> tuple[Array, Array, list[str | None]]:
         read, rows = self._read, self._rows
         sids, names = self._tables.constraints.texts("sid"), self._tables.constraints.texts("name")
@@ -165,6 +171,8 @@ class _Joints:
         for row in rows.tolist():
             name = names[row]
             sid: int | None = None
+            if read.large[row]:
+                self._note_large(row)
             if read.kept[row]:
                 explicit = int(read.kept_sids[row])
                 sid = system_id(sids[row] or "", "Joint") if explicit == -1 else explicit

@@ -53,6 +53,8 @@ class Parts:
     """(n, 4) as the World lays them out."""
     anchors: Array
     """(n, 3) NaN where there is none."""
+    large: Array
+    """(n,) whether an id has more than 64 bits."""
 
     def __len__(self) -> int:
         return len(self.uid)
@@ -222,22 +224,25 @@ def _masked(column: Any, count: int, shape: tuple[int, ...], default: Any) -> tu
     return column.values, column.present
 
 
-def countable(column: Any, count: int) -> tuple[Array, Array]:
-    """The ids (n,) of a column, and where they are; the schema's integers may be any, ours not.
+def countable(column: Any, count: int) -> tuple[Array, Array, Array]:
+    """The ids (n,) of a column, where they are, and where they are too large.
 
-    An id of more than 64 bits is as if not there: the World gives another one.
+    The schema's integers may be any, ours not: an id of more than 64 bits is as if not there, and
+    the World gives another one.
     """
     values, present = _masked(column, count, (), 0)
+    large = np.zeros(count, np.bool_)
     if values.dtype == object:
         fits = np.array([-(2**63) <= value < 2**63 for value in values.tolist()], np.bool_)
+        large = present & ~fits
         values, present = np.where(fits, values, 0).astype(np.int64), present & fits
-    return values, present
+    return values, present, large
 
 
 def _parts(rows: Any, *, shaped: bool) -> Parts:
     count = len(rows)
-    uid, has_uid = countable(rows.uid, count)
-    sid, has_sid = countable(rows.sid, count)
+    uid, has_uid, large_uid = countable(rows.uid, count)
+    sid, has_sid, large_sid = countable(rows.sid, count)
     fixed, has_fixed = _masked(rows.fixed, count, (), False)
     hollow, has_hollow = _masked(rows.hollow, count, (), False)
     mass, has_mass = _masked(rows.mass, count, (), np.nan)
@@ -254,7 +259,7 @@ def _parts(rows: Any, *, shaped: bool) -> Parts:
         _geometry(rows, kinds, dimensions, anchors)
     return Parts(uid, has_uid, sid, has_sid, list(rows.name or [None] * count), fixed, has_fixed,
                  hollow, has_hollow, mass, has_mass, inertia, has_inertia, poses, kinds, dimensions,
-                 anchors)  # fmt: skip
+                 anchors, large_uid | large_sid)  # fmt: skip
 
 
 def _geometry(rows: Any, kinds: Array, dimensions: Array, anchors: Array) -> None:
