@@ -371,3 +371,49 @@ def test_names_that_no_console_can_show(validate: Runner) -> None:
         )
         assert done.returncode == 1, done.stderr
         assert b"\033" not in done.stdout
+
+
+UNNEEDED = {
+    "colladaphy.validation.baseline", "colladaphy.validation.behind",
+    "colladaphy.validation.fingerprints", "colladaphy.validation.reporters.excerpts",
+    "colladaphy.conform.pipeline", "concurrent.futures", "hashlib", "multiprocessing", "pathspec",
+    "rich", "tomllib", "zipfile",
+}  # fmt: skip
+
+
+def test_a_valid_file_needs_few_modules(tmp_path: Path) -> None:
+    (tmp_path / "a.dae").write_text(VALID)
+    code = (
+        "import sys\nfrom colladaphy.cli import run\nassert run(['validate', 'a.dae']) == 0\n"
+        "print('MODULES', *sys.modules)"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert UNNEEDED.isdisjoint(done.stdout.partition("MODULES")[2].split())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the time of processes is told otherwise")
+def test_a_valid_file_costs_little_more_than_the_libraries(tmp_path: Path) -> None:
+    """Of the 0.2 s of CPU that a small file may take, numpy, lxml and click take a half."""
+    import resource
+
+    (tmp_path / "a.dae").write_text(VALID)
+    environment = os.environ | {"PYTHONPYCACHEPREFIX": str(tmp_path / "compiled")}
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
+
+    def spent(*arguments: str) -> float:
+        def total() -> float:
+            usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+            return usage.ru_utime + usage.ru_stime
+
+        times = []
+        for _ in range(6):
+            before = total()
+            subprocess.run([sys.executable, *arguments], cwd=tmp_path, env=environment, check=True,
+                           capture_output=True)  # fmt: skip
+            times.append(total() - before)
+        return min(times)
+
+    libraries = spent("-c", "import click, lxml.etree, numpy")
+    assert spent("-m", "colladaphy", "validate", "a.dae") < 2.5 * libraries

@@ -138,7 +138,7 @@ def _print_schema(context: click.Context, _: click.Parameter, wanted: bool) -> N
     is_flag=True,
     help="Count the codes in place of showing findings, in full and concise.",
 )
-@click.option("-q", "--quiet", is_flag=True, help="Only findings: no lines about files, no summary.")
+@click.option("-q", "--quiet", is_flag=True, help="Show findings only: nothing about files.")
 @click.option(
     "-j",
     "--jobs",

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import io
 import stat
-import zipfile
 import zlib
 from collections.abc import Iterable, Mapping
 from posixpath import normpath
+from typing import TYPE_CHECKING
 from urllib.parse import unquote
 
 from lxml import etree
@@ -16,6 +16,9 @@ from colladaphy.errors import ColladaError, InputError
 from colladaphy.findings import Finding
 from colladaphy.source import rules
 from colladaphy.source.limits import Limits
+
+if TYPE_CHECKING:  # few documents are archives: imported when one is
+    import zipfile
 
 __all__ = ["MAGIC", "MANIFEST", "Archive", "pack"]
 
@@ -33,6 +36,8 @@ class Archive:
     """The entries of a zip archive by their normalised names, all of them checked on opening."""
 
     def __init__(self, data: bytes, file: str | None, limits: Limits) -> None:
+        import zipfile
+
         self.file = file
         self._limits = limits
         self._entries: dict[str, zipfile.ZipInfo] = {}
@@ -56,6 +61,8 @@ class Archive:
 
     def read(self, name: str) -> bytes:
         """Unpack one entry in memory; counted while it streams, whatever the archive declares."""
+        import zipfile
+
         info = self._entries[name]
         limits = self._limits
         parts: list[bytes] = []
@@ -173,6 +180,8 @@ def pack(
     document: bytes, *, name: str = "scene.dae", others: Mapping[str, bytes] | None = None
 ) -> bytes:
     """A `.zae` of the document, its manifest, and `others` by name; equal input, equal bytes."""
+    import zipfile
+
     manifest = (
         f'<?xml version="1.0" encoding="utf-8"?>\n<dae_root>./{_escape(name)}</dae_root>\n'
     ).encode()

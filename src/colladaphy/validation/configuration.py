@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -112,6 +111,8 @@ def _bytes(file: Path) -> bytes:
 
 
 def _table(file: Path) -> dict[str, Any]:
+    import tomllib
+
     data = _bytes(file)
     try:
         return tomllib.loads(data.decode("utf-8"))

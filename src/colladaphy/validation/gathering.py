@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from glob import glob, has_magic
 from pathlib import Path
 
 from colladaphy.findings import Finding
@@ -54,6 +53,8 @@ def gather(
     none that `exclude` or the configuration excludes. What is named itself is always there, unless
     exclusion is forced.
     """
+    from glob import glob, has_magic
+
     exclude = exclude or Patterns()
     found = Gathered()
 
@@ -62,7 +63,7 @@ def gather(
         return exclude.match(path, None) or configurations.of(path.parent).excludes(path)
 
     for argument in arguments:
-        pattern = argument != "-" and has_magic(argument) and not os.path.lexists(argument)
+        pattern = argument != "-" and not os.path.lexists(argument) and has_magic(argument)
         # Path.glob has no patterns that begin at the root.
         named = sorted(glob(argument, recursive=True)) if pattern else [argument]  # noqa: PTH207
         if not named:

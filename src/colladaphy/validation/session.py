@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from colladaphy.errors import InputError
 from colladaphy.findings import Finding, Report
 from colladaphy.source.limits import Limits
-from colladaphy.validation.baseline import Baseline
 from colladaphy.validation.checking import Checked, Job, check_all
 from colladaphy.validation.configuration import (
     Configuration,
@@ -20,6 +19,9 @@ from colladaphy.validation.configuration import (
 from colladaphy.validation.gathering import gather
 from colladaphy.validation.patterns import Patterns
 from colladaphy.validation.settings import Settings
+
+if TYPE_CHECKING:
+    from colladaphy.validation.baseline import Baseline
 
 __all__ = ["Request", "Session"]
 
@@ -115,5 +117,7 @@ class Session:
         if file is None or request.without_baseline:
             return None
         if file not in self._baselines:
+            from colladaphy.validation.baseline import Baseline
+
             self._baselines[file] = Baseline.read(file)
         return self._baselines[file]

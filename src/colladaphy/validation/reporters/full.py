@@ -7,7 +7,6 @@ from collections.abc import Iterable, Iterator
 from colladaphy.findings import Finding
 from colladaphy.validation.checking import Checked
 from colladaphy.validation.reporters.concise import closing, head, verdict
-from colladaphy.validation.reporters.excerpts import excerpt, wanted_lines
 from colladaphy.validation.reporters.grouping import Group, grouped
 from colladaphy.validation.reporters.presentation import Presentation, printable
 from colladaphy.validation.reporters.totals import Totals
@@ -36,6 +35,10 @@ def render(results: Iterable[Checked], presentation: Presentation) -> Iterator[s
 
 def _lines(result: Checked, groups: list[Group], presentation: Presentation) -> _Lines:
     """The lines of the sources that are shown, by file; each file is read once."""
+    if not groups:
+        return {}
+    from colladaphy.validation.reporters.excerpts import wanted_lines
+
     wanted: dict[str, set[int]] = {}
     for group in groups if result.readable else ():
         for finding in group.shown:
@@ -48,6 +51,8 @@ def _lines(result: Checked, groups: list[Group], presentation: Presentation) -> 
 def _group(
     group: Group, result: Checked, lines: _Lines, presentation: Presentation
 ) -> Iterator[str]:
+    from colladaphy.validation.reporters.excerpts import excerpt
+
     first = group.shown[0] if group.shown else None
     for finding in group.shown:
         yield head(finding, result, presentation.paint)

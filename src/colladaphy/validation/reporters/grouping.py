@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from colladaphy.findings import Finding, Report
 
@@ -12,8 +12,7 @@ __all__ = ["Group", "grouped"]
 _LISTED = 5
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(NamedTuple):
     """The findings of one kind in a file: those to show, and the rest."""
 
     shown: Sequence[Finding]

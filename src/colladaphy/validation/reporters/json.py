@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -27,6 +26,8 @@ def json_schema() -> str:
 
 def as_json(reports: Iterable[Report | Checked]) -> str:
     """All reports as one JSON document, in ASCII, so that no console can spoil it."""
+    import json  # not for those who only offer this format
+
     results = [
         report if isinstance(report, Checked) else Checked(report, Settings()) for report in reports
     ]

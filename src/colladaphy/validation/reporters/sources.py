@@ -9,9 +9,7 @@ from itertools import islice
 from pathlib import Path
 
 from colladaphy.errors import ColladaError
-from colladaphy.source.archive import MAGIC, Archive
 from colladaphy.source.limits import Limits
-from colladaphy.validation.reporters.places import split_member
 
 __all__ = ["Sources"]
 
@@ -59,6 +57,9 @@ class Sources:
         return found
 
     def _read(self, file: str) -> bytes:
+        from colladaphy.source.archive import MAGIC, Archive
+        from colladaphy.validation.reporters.places import split_member
+
         data = self._given.get(file)
         outer, member = file, None
         if data is None:
