@@ -11,7 +11,7 @@ from itertools import groupby
 from pathlib import Path
 
 from colladaphy.findings import Rule
-from colladaphy.validation import all_rules
+from colladaphy.validation.catalogue import own_rules
 
 PAGE = Path(__file__).resolve().parent.parent / "docs" / "rules.md"
 HEAD = """# Codes of findings
@@ -24,7 +24,7 @@ Only findings of severity error make a document invalid.
 def page() -> str:
     """The page's text, one table a stage."""
     parts = [HEAD]
-    for stage, rules in groupby(all_rules(), key=lambda rule: rule.stage):
+    for stage, rules in groupby(own_rules(), key=lambda rule: rule.stage):
         parts.append(
             f"\n## {stage}\n\n| code | severity | what it means | why | what to do | source |"
         )

@@ -304,8 +304,8 @@ def test_engines_of_other_packages_are_found(monkeypatch: pytest.MonkeyPatch, em
         "mine", "colladaphy.engines.pymunk_engine:PymunkEngine", "colladaphy.engines"
     )
     monkeypatch.setattr(
-        selecting, "entry_points",
-        lambda group, name=None: [point] if group == selecting.GROUP else [],
+        selecting.extensions, "offered",
+        lambda group: (point,) if group == "colladaphy.engines" else (),
     )  # fmt: skip
     assert engine_names() == (*ENGINES, "mine")
     world = empty()

@@ -83,9 +83,9 @@ def convention_option(function: _Function) -> _Function:
 def _convention(_: click.Context, __: click.Parameter, value: str) -> str:
     if value in ("auto", "none"):
         return value
-    from colladaphy.conform.conventions import CONVENTIONS
+    from colladaphy.conform.conventions import conventions
 
-    names = [known.name for known in CONVENTIONS]
+    names = [known.name for known in conventions()]
     if value not in names:
         raise click.BadParameter(f"{value!r} is not one of {', '.join(['auto', 'none', *names])}.")
     return value

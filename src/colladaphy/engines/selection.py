@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 from importlib import import_module
-from importlib.metadata import PackageNotFoundError, entry_points, version
+from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Final
 
 from colladaphy.engines.rules import CHOSEN, NO_ENGINE, NOT_INSTALLED, UNKNOWN, refuse
 from colladaphy.errors import EngineError
 from colladaphy.findings import Finding, Severity
+from colladaphy.source import extensions
 
 if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
+
     from colladaphy.engines.options import Value
     from colladaphy.engines.protocol import Engine
     from colladaphy.world import World
 
-__all__ = ["ENGINES", "GROUP", "choose", "create_engine", "engine_names"]
+__all__ = ["ENGINES", "choose", "create_engine", "engine_names"]
 
 ENGINES: Final = {
     "pymunk": ("colladaphy.engines.pymunk_engine", "PymunkEngine"),
@@ -24,15 +27,18 @@ ENGINES: Final = {
 """Engines by name, in the order in which "auto" tries them: module and class."""
 
 
-GROUP: Final = "colladaphy.engines"
-"""The group of entry points under which other packages offer engines, by name: classes, or
-functions that take the options and return an engine. Built-in names come first."""
-
-
 def engine_names() -> tuple[str, ...]:
-    """The names of all engines, those of other packages included, whether they work or not."""
-    offered = sorted({point.name for point in entry_points(group=GROUP)} - ENGINES.keys())
-    return (*ENGINES, *offered)
+    """The names of all engines, whether they work or not, ours first.
+
+    Other packages offer theirs as entry points of `extensions.ENGINES`: classes, or functions that
+    take the options and return an engine.
+    """
+    return (*ENGINES, *_offered())
+
+
+def _offered() -> dict[str, EntryPoint]:
+    points = extensions.offered(extensions.ENGINES)
+    return {point.name: point for point in points if point.name not in ENGINES}
 
 
 def create_engine(name: str, **options: Value) -> Engine:
@@ -49,8 +55,7 @@ def create_engine(name: str, **options: Value) -> Engine:
             module, cls = ENGINES[name]
             maker = getattr(import_module(module), cls)
         else:
-            (point, *_) = entry_points(group=GROUP, name=name)
-            maker = point.load()
+            maker = _offered()[name].load()
     except Exception as error:  # a library can fail in any way when it is loaded
         raise _not_installed(name, error) from error
     engine: Engine = maker(**options)

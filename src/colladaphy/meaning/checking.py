@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from importlib import import_module
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 
-from colladaphy.findings import Finding
+from colladaphy.findings import Finding, Rule
 from colladaphy.links.names import c
 from colladaphy.links.resource import Resource
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit, findings_of
+from colladaphy.source import extensions
 
-__all__ = ["SUBJECTS", "check", "hits_of"]
+__all__ = ["SUBJECTS", "check", "fault_of_rules", "hits_of"]
 
 _PRIMITIVES = ("mesh", "convex_mesh")
 _BODIES = ("rigid_body",)
@@ -74,4 +75,26 @@ def hits_of(
             module = import_module(f"colladaphy.meaning.{subject}")
             for function in module.CHECKS:
                 hits.extend(function(context))
+        hits.extend(_offered(context))
     return hits
+
+
+def _offered(context: Context) -> Iterator[Hit | Finding]:
+    """What the rules of other packages find."""
+    modules, findings = extensions.loaded(extensions.RULES, fault_of_rules)
+    yield from findings
+    for name, module in modules:
+        try:
+            found = [hit for function in module.CHECKS for hit in function(context)]
+        except Exception as error:  # other people's code can fail in any way
+            why = f"{type(error).__name__}: {error}"
+            yield extensions.broken(extensions.RULES, name, why)
+            continue
+        yield from found
+
+
+def fault_of_rules(offered: Any) -> str | None:
+    """Why an object offers no rules; they are as those of a module of `SUBJECTS`."""
+    if not all(isinstance(rule, Rule) for rule in offered.RULES):
+        return "its RULES are no rules"
+    return None if all(map(callable, offered.CHECKS)) else "its CHECKS are no functions"

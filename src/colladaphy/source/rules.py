@@ -192,7 +192,15 @@ WRONG_NAMESPACE = Rule(
 UNREACHABLE = frozenset({REFERENCE_REFUSED.code, REFERENCE_MISSING.code})
 """Of files that a document refers to: what they hold is left out, all else is as it was."""
 
+EXTENSION_BROKEN = Rule(
+    "config-extension-broken",
+    _WARNING,
+    "Something that another package offers to colladaphy cannot be used.",
+    "Ask the package that offers it, or uninstall it.",
+)
+
 RULES = (
+    EXTENSION_BROKEN,
     MISSING,
     FOLDER,
     UNREADABLE,

@@ -14,8 +14,9 @@ from colladaphy.conform import rules
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import blender, bullet, model_frames, units
 from colladaphy.conform.conventions.clues import Clues, add_note, drop_note, find_note, read_clues
+from colladaphy.source import extensions
 
-__all__ = ["CONVENTIONS", "Convention", "translate"]
+__all__ = ["CONVENTIONS", "Convention", "conventions", "translate"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,12 +103,27 @@ CONVENTIONS: tuple[Convention, ...] = (
 )
 
 
+def conventions() -> tuple[Convention, ...]:
+    """Ours, then those of other packages, in the order in which they are tried."""
+    others, _ = extensions.loaded(extensions.CONVENTIONS, _fault)
+    return CONVENTIONS + tuple(convention for _, convention in others)
+
+
+def _fault(offered: object) -> str | None:
+    if not isinstance(offered, Convention):
+        return f"it is no Convention, but {offered!r}"
+    ours = {"auto", "none", *(known.name for known in CONVENTIONS)}
+    return f"the name {offered.name!r} is taken" if offered.name in ours else None
+
+
 def translate(context: Context, convention: str) -> None:
     """Rewrite what the document means otherwise than the standard.
 
-    `convention` is a name of `CONVENTIONS`, "auto" or "none". Raises ValueError for other names.
+    `convention` is the name of one of `conventions`, "auto" or "none". Raises ValueError for other
+    names.
     """
-    by_name = {known.name: known for known in CONVENTIONS}
+    context.findings.extend(extensions.loaded(extensions.CONVENTIONS, _fault)[1])
+    by_name = {known.name: known for known in conventions()}
     if convention not in ("auto", "none", *by_name):
         names = ", ".join(["auto", "none", *by_name])
         raise ValueError(f"there is no convention {convention!r}; choose one of {names}")
@@ -130,7 +146,7 @@ def translate(context: Context, convention: str) -> None:
 
 def _recognised(clues: Clues) -> list[tuple[Convention, str]]:
     """The first convention that fits; with Bullet also that of the file which Bullet edited."""
-    fitting = [(known, why) for known in CONVENTIONS if (why := known.recognise(clues))]
+    fitting = [(known, why) for known in conventions() if (why := known.recognise(clues))]
     if not fitting or not fitting[0][0].name.startswith("bullet"):
         return fitting[:1]
     if bullet.is_whole(clues):
