@@ -116,15 +116,20 @@ def _convert(world: World, change: Conversion) -> None:
             world.meshes[id] = Mesh(
                 mesh.vertices * scale, mesh.faces, convex=mesh.convex, id=mesh.id
             )
-        _scale_densities(world, scale)
+        _scale_materials(world, scale)
 
 
 def _turned(turn: Array, vectors: Array, turns: bool) -> Array:
     return np.asarray(rotations.rotate(turn, vectors)) if turns else vectors
 
 
-def _scale_densities(world: World, scale: float) -> None:
-    """Custom materials with their density per new unit of volume; pe's own five stay pe's."""
+def _scale_materials(world: World, scale: float) -> None:
+    """Densities per new unit of volume, Young's moduli per new unit of area.
+
+    Stiffness (force/length) and dampings (mass/time) have no length in them, and pe's own five
+    materials follow the World's unit by themselves; their moduli are pe's numbers.
+    """
     materials = world.materials
     custom = materials.ids[materials.ids >= materials.DEFAULT_COUNT]
-    materials.change("density", custom, materials.values("density", custom) / scale**3)
+    for name, power in (("density", 3), ("young_modulus", 1)):
+        materials.change(name, custom, materials.values(name, custom) / scale**power)

@@ -126,7 +126,7 @@ class Materials:
     `Material` is made when it is first asked for.
     """
 
-    __slots__ = ("_ids", "_made", "_names", "_next_id", "_overrides", "_table")
+    __slots__ = ("_ids", "_made", "_meter", "_names", "_next_id", "_overrides", "_table")
 
     DEFAULT_COUNT = len(_DEFAULTS)
 
@@ -136,6 +136,7 @@ class Materials:
         self._names: dict[int, str] = {}
         self._made: dict[int, Material] = {}
         self._next_id = 0
+        self._meter = 1.0
         self._overrides: dict[tuple[int, int], PairOverride] = {}
         for name, density, poisson, young in _DEFAULTS:
             self.create(
@@ -221,6 +222,17 @@ class Materials:
         for id in found:
             self._made.pop(id, None)
 
+    def follow_unit(self, meter: float) -> None:
+        """Have the densities of pe's five materials per cubic unit, which has `meter` metres.
+
+        Those that were changed stay as they are.
+        """
+        for id, (_, density, _, _) in enumerate(_DEFAULTS):
+            before, after = density * _cubed(self._meter), density * _cubed(meter)
+            if self._table.raw("density")[self._table.find(id)] == before:
+                self.change("density", [id], [after])
+        self._meter = meter
+
     @staticmethod
     def _check_column(key: str, column: NDArray[np.float64], names: Sequence[str]) -> None:
         low, high, closed = _RANGES[key]
@@ -268,7 +280,7 @@ class Materials:
         twin._table = self._table.copy()
         twin._ids, twin._names = dict(self._ids), dict(self._names)
         twin._made, twin._overrides = dict(self._made), dict(self._overrides)
-        twin._next_id = self._next_id
+        twin._next_id, twin._meter = self._next_id, self._meter
         return twin
 
     def __getitem__(self, key: str | int) -> Material:
@@ -332,6 +344,12 @@ class Materials:
             self._overrides[low, high] = PairOverride(low, high, **given)
         else:
             self._overrides.pop((low, high), None)
+
+
+def _cubed(meter: float) -> float:
+    """Its cube, as long as densities of that are numbers that a material can have."""
+    cube = meter * meter * meter
+    return cube if 1e-200 < cube < 1e200 else 1.0
 
 
 def check_value(name: str, key: str, value: float) -> float:

@@ -48,8 +48,7 @@ class World:
     """Rigid bodies, joints and materials after the pe engine (thesis 2).
 
     Nothing is converted: lengths are in the World's own unit, masses in kg, angles in radians.
-    Densities are in kg per cubic unit, so that pe's five materials, which are in SI, fit a World in
-    metres: in another unit give masses, or materials of your own.
+    Densities are in kg per cubic unit; those of pe's five materials are what pe has in SI.
     What cannot be is refused with a WorldError.
 
     Columns of the top-level bodies have one row a body, aligned with `bodies`. Every column is a
@@ -64,6 +63,7 @@ class World:
     ) -> None:  # fmt: skip
         if not isinstance(unit, (tuple, list)) or len(unit) != 2:
             raise refuse(ARGUMENT, f"The unit is {unit!r}, not a name and a size in metres.")
+        self._storage = Storage()
         self.gravity = gravity
         self.unit_name, self.unit_meter = unit
         self.up_axis = up_axis
@@ -72,7 +72,6 @@ class World:
         self.time = 0.0
         self.step_count = 0
         self.engine_state = None
-        self._storage = Storage()
 
     materials = Held[Materials]("The materials, by name and by id.")
     meshes = Held[dict[int, Mesh]]("Meshes by id, each shared between any number of bodies.")
@@ -88,7 +87,6 @@ class World:
 
     name = Setting(values.optional(values.text), "The name of the scene, if it has one.")
     unit_name = Setting(values.text, "The name of the unit of length.")
-    unit_meter = Setting(values.positive, "The unit of length in metres.")
     up_axis = Setting(values.text, "X_UP, Y_UP or Z_UP.")
     time_step = Setting(values.optional(values.number), "The step that the scene asks for.")
     time = Setting(values.finite, "The clock, in seconds.")
@@ -96,6 +94,16 @@ class World:
     engine_state = Setting(
         values.optional(values.instance(EngineState)), "What an engine needs to go on exactly."
     )
+
+    @property
+    def unit_meter(self) -> float:
+        """The unit of length in metres. Nothing but pe's own densities follows a change of it."""
+        return self._unit_meter
+
+    @unit_meter.setter
+    def unit_meter(self, value: float) -> None:
+        self._unit_meter = values.positive("unit meter", value)
+        self.materials.follow_unit(self._unit_meter)
 
     @property
     def gravity(self) -> Floats:
