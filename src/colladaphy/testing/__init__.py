@@ -31,7 +31,7 @@ except ImportError as error:  # say what to install, not only what is missing
         "colladaphy.testing needs hypothesis: pip install 'colladaphy[testing]'"
     ) from error
 
-from colladaphy.testing.changes import REWRITES, equivalents
+from colladaphy.testing.changes import EDITS, REWRITES, edits, equivalents
 from colladaphy.testing.coverage import Component, Coverage
 from colladaphy.testing.covering import covering_documents
 from colladaphy.testing.documents import AREAS, documents
@@ -44,6 +44,7 @@ del _hypothesis
 
 __all__ = [
     "AREAS",
+    "EDITS",
     "JOINTS",
     "MUTATIONS",
     "REWRITES",
@@ -53,6 +54,7 @@ __all__ = [
     "covering_documents",
     "crowd",
     "documents",
+    "edits",
     "equivalents",
     "mutants",
     "physics_documents",

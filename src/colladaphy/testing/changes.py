@@ -9,15 +9,19 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from colladaphy.document import Document
+from colladaphy.testing.changing.editing import EDITS as _EDITS
 from colladaphy.testing.changing.rewriting import REWRITES as _REWRITES
 from colladaphy.testing.changing.rewriting import Change
 from colladaphy.testing.changing.spelling import SERIALIZATIONS, serialized
 from colladaphy.testing.making.scalars import several
 
-__all__ = ["REWRITES", "equivalents"]
+__all__ = ["EDITS", "REWRITES", "edits", "equivalents"]
 
 REWRITES: tuple[str, ...] = tuple(_REWRITES)
 """The names of changes that leave a document's meaning as it is."""
+
+EDITS: tuple[str, ...] = tuple(_EDITS)
+"""The names of edits."""
 
 
 def equivalents(
@@ -48,6 +52,30 @@ def equivalents(
         return serialized(root, form)
 
     return changed()
+
+
+def edits(
+    document: bytes | str | Document, *, kinds: Iterable[str] | None = None, most: int = 3
+) -> st.SearchStrategy[bytes]:
+    """Documents that an editor program could have made of a valid one, and that are valid.
+
+    One to `most` edits of the `kinds` (of EDITS; None is all of them) are made: bodies are moved,
+    weighed, removed, copied and added, numbers are rounded, comments and what the program does
+    not understand are dropped. The pe profile is left as it is, or is dropped as a whole: it may
+    not fit the common profile any more, and the common profile counts then.
+
+    Raises ValueError for an unknown kind.
+    """
+    chosen = _chosen(kinds, _EDITS)
+    data = _bytes_of(document)
+
+    @st.composite
+    def edited(draw: st.DrawFn) -> bytes:
+        root = etree.fromstring(data)
+        several(draw, 1, most, lambda draw: apply(draw, root, chosen))
+        return serialized(root, "plain")
+
+    return edited()
 
 
 def apply(draw: st.DrawFn, root: etree._Element, changes: Mapping[str, Change]) -> str | None:

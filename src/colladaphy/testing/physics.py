@@ -10,6 +10,7 @@ from lxml import etree
 from colladaphy.document import write
 from colladaphy.mapper import WriteOptions
 from colladaphy.testing.changes import apply
+from colladaphy.testing.changing.editing import EDITS
 from colladaphy.testing.changing.rewriting import REWRITES
 from colladaphy.testing.changing.spelling import SERIALIZATIONS, serialized
 from colladaphy.testing.composing.whole import compose
@@ -44,7 +45,7 @@ _options = st.builds(
     WriteOptions,
     shape_weight=st.sampled_from(["mass", "density"]),
     redundant=st.booleans(),
-    profile=st.sampled_from(["compact", "full", "none"]),
+    profile=st.sampled_from(["full", "compact", "full", "none"]),
     kinematics=st.booleans(),
 )
 
@@ -54,7 +55,11 @@ def _written(draw: st.DrawFn) -> bytes:
     world: World = draw(worlds(max_bodies=4, extreme=False, physical=True))
     stream = io.BytesIO()
     write(world, stream, options=draw(_options))
-    return stream.getvalue()
+    if draw(st.booleans()):
+        return stream.getvalue()
+    root = etree.fromstring(stream.getvalue())  # and what somebody made of it since
+    several(draw, 1, 3, lambda draw: apply(draw, root, EDITS))
+    return serialized(root, "plain")
 
 
 @st.composite

@@ -12,7 +12,7 @@ from lxml import etree
 from colladaphy.testing.changing.elements import NUMERIC, C, child, common, local, make
 from colladaphy.testing.changing.spelling import respelled, spellings
 
-__all__ = ["REWRITES", "Change"]
+__all__ = ["REWRITES", "Change", "Element", "of", "whole"]
 
 PE = "{urn:colladaphy:pe:1}"
 Element = etree._Element
@@ -42,7 +42,8 @@ _foreign = st.sampled_from(
 )
 
 
-def _of(*names: str) -> Places:
+def of(*names: str) -> Places:
+    """Elements of some names."""
     return lambda root: common(root, *names)
 
 
@@ -183,22 +184,23 @@ def _unused(draw: st.DrawFn, root: Element) -> None:
             model.addnext(again)
 
 
-def _root(root: Element) -> list[Element]:
+def whole(root: Element) -> list[Element]:
+    """The document as a whole."""
     return [root]
 
 
 REWRITES: dict[str, Change] = {
-    "comments": (_of(*NUMERIC, "rigid_body", "shape", "node", "instance_rigid_body"), _comment),
-    "extras": (_of(*_WITH_EXTRA), _extra),
-    "techniques": (_of(*_WITH_TECHNIQUE), _foreign_technique),
-    "numbers": (_root, _spell),
-    "flags": (_of("dynamic", "enabled", "interpenetrate", "hollow"), _flags),
-    "libraries-reordered": (_root, _reorder),
+    "comments": (of(*NUMERIC, "rigid_body", "shape", "node", "instance_rigid_body"), _comment),
+    "extras": (of(*_WITH_EXTRA), _extra),
+    "techniques": (of(*_WITH_TECHNIQUE), _foreign_technique),
+    "numbers": (whole, _spell),
+    "flags": (of("dynamic", "enabled", "interpenetrate", "hollow"), _flags),
+    "libraries-reordered": (whole, _reorder),
     "libraries-split": (_libraries_of_several, _split),
-    "ids": (_root, _rename),
-    "nodes-wrapped": (_of("node"), _wrap),
-    "transforms-still": (_of("node"), _still),
-    "names": (_of("node", "physics_model", "physics_scene", "geometry"), _name),
-    "models-unused": (_root, _unused),
+    "ids": (whole, _rename),
+    "nodes-wrapped": (of("node"), _wrap),
+    "transforms-still": (of("node"), _still),
+    "names": (of("node", "physics_model", "physics_scene", "geometry"), _name),
+    "models-unused": (whole, _unused),
 }
 """Changes by name; after each a document means what it meant before."""
