@@ -15,6 +15,7 @@ NODE = Rule(
     "A body got a node of its own, as the one that it is bound to cannot be moved for it alone.",
     "Bind each body to a node that no other body has, and that is instanced once.",
     "COLLADA 1.5 §instance_rigid_body",
+    why="If the old node were moved, something else would move with it.",
 )
 COPIED = Rule(
     "store-copied",
@@ -23,11 +24,14 @@ COPIED = Rule(
     "different now, it is described by a copy.",
     None,
     "thesis 3.3",
+    why="To change what is shared would change the others too.",
 )
 INEXACT = Rule(
     "store-inexact",
     _WARNING,
     "The document does not read back as exactly the World that was written into it.",
     "Write the World as a document of its own: colladaphy.write(world, ...).",
+    section="colladaphy.Document.update",
+    why="A run that is resumed from it goes on a little differently.",
 )
 RULES = (NODE, COPIED, INEXACT)

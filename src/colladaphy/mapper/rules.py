@@ -16,6 +16,7 @@ NO_SCENE = Rule(
     "The document instances no physics scene, so there is nothing to load.",
     "Choose a scene: doc.scenes[...].load(), or add <instance_physics_scene> to <scene>.",
     "thesis 5.3",
+    why="The World stays empty.",
 )
 SEVERAL_GRAVITIES = Rule(
     "load-several-gravities",
@@ -23,6 +24,7 @@ SEVERAL_GRAVITIES = Rule(
     "Several scenes with different gravity or time step are loaded into one World.",
     "Load them into Worlds of their own; the first scene's values are taken.",
     "thesis 4.1",
+    why="A World has one gravity and one time step.",
 )
 EMPTY_SHAPE = Rule(
     "load-empty-shape",
@@ -30,6 +32,7 @@ EMPTY_SHAPE = Rule(
     "A shape has no volume, so it cannot be represented.",
     "Give all lengths and radii a value greater than zero.",
     "thesis 6.2.2",
+    why="It has no mass, and nothing can touch it.",
 )
 NO_GEOMETRY = Rule(
     "load-no-geometry",
@@ -37,6 +40,7 @@ NO_GEOMETRY = Rule(
     "The geometry of a shape cannot be represented.",
     "Rigid bodies need a mesh of polygons that encloses a volume, or a primitive.",
     "thesis 4.2",
+    why="The body is without that shape: lighter, and with nothing to touch there.",
 )
 BODY_SKIPPED = Rule(
     "load-body-skipped",
@@ -44,6 +48,7 @@ BODY_SKIPPED = Rule(
     "None of the shapes of a body can be represented, and the body is skipped.",
     "Correct its shapes; a body that states its mass and inertia needs none.",
     "thesis 6.2.2",
+    why="What it should hold up falls, and its joints are gone.",
 )
 NO_BODY = Rule(
     "load-no-body",
@@ -51,18 +56,23 @@ NO_BODY = Rule(
     "A body has neither a shape nor a mass: it is a frame of reference, and no body is made of it.",
     "Give it a mass, and an inertia, if it is to move.",
     "COLLADA 1.5 §rigid_body",
+    why="Who expects a body there does not find one.",
 )
 BAD_VALUE = Rule(
     "load-bad-value",
     _WARNING,
     "A body has a value that a World cannot hold, and is skipped.",
     "Masses are not negative, poses and velocities are finite numbers.",
+    section="COLLADA 1.5 §rigid_body",
+    why="One value that is no number spoils all that are computed with it.",
 )
 CONVERSION = Rule(
     "load-conversion",
     _ERROR,
     "Lengths cannot be converted to the unit that is asked for.",
     "Correct the document's <unit>, or load in the document's own unit.",
+    section="COLLADA 1.5 §unit",
+    why="Every length would be zero, infinite or no number.",
 )
 BODY_TWICE = Rule(
     "load-body-twice",
@@ -71,6 +81,7 @@ BODY_TWICE = Rule(
     "so which one is meant cannot be told.",
     "Instance the physics model twice instead, or give each instance a rigid_body of its own.",
     "thesis 3.3",
+    why="Either choice could hold the wrong body.",
 )
 CONSTRAINT_SKIPPED = Rule(
     "load-constraint-skipped",
@@ -78,6 +89,7 @@ CONSTRAINT_SKIPPED = Rule(
     "A constraint attaches to a body that was not loaded, and is skipped.",
     "Load the model that holds the body too, or correct the attachment.",
     "thesis 5.3",
+    why="The body that is there moves freely.",
 )
 CONSTRAINT_FAULTY = Rule(
     "load-constraint-faulty",
@@ -85,6 +97,7 @@ CONSTRAINT_FAULTY = Rule(
     "A constraint cannot be represented, and is skipped.",
     "A constraint binds two different bodies, or a body and the world, within limits min to max.",
     "thesis 4.5",
+    why="The bodies move freely.",
 )
 KINEMATICS_UNUSED = Rule(
     "kinematics-not-instanced",
@@ -92,6 +105,7 @@ KINEMATICS_UNUSED = Rule(
     "The document has kinematics models, but its scene instances none: they make no joints.",
     "Add an <instance_kinematics_scene> to <scene>.",
     "COLLADA 1.5 §instance_kinematics_scene",
+    why="The robot falls apart into its links.",
 )
 KINEMATICS_LOST = Rule(
     "kinematics-reference",
@@ -99,6 +113,7 @@ KINEMATICS_LOST = Rule(
     "A reference in the kinematics leads nowhere, and is not followed.",
     "Correct the path: the sids lead from instances to what they are of.",
     "COLLADA 1.5 §Address syntax",
+    why="What it should say of the robot is not known: the joint, its limits or its place.",
 )
 ROBOT_EMPTY = Rule(
     "kinematics-no-bodies",
@@ -106,12 +121,15 @@ ROBOT_EMPTY = Rule(
     "None of the links of a kinematics model is a body that is loaded, so it makes no joints.",
     "Bind links and rigid bodies to the same nodes, or give them the same names.",
     "COLLADA 1.5 §bind_kinematics_model",
+    why="The robot is no part of the World.",
 )
 LINK_IN_WORLD = Rule(
     "kinematics-link-in-world",
     _INFO,
     "The outermost link of a robot has neither shape nor mass: the world holds what hangs on it.",
     "Give the link a mass and an inertia, if the robot is to move about.",
+    section="COLLADA 1.5 §link",
+    why="The robot is held where it stands.",
 )
 LINK_UNCLEAR = Rule(
     "kinematics-link-unclear",
@@ -119,6 +137,7 @@ LINK_UNCLEAR = Rule(
     "Several bodies have the name of a link, so which of them it is cannot be told.",
     "Bind the link to the node of its body with <bind_joint_axis>.",
     "COLLADA 1.5 §bind_joint_axis",
+    why="The joint would hold the wrong body.",
 )
 JOINT_EMPTY = Rule(
     "kinematics-joint-empty",
@@ -126,6 +145,7 @@ JOINT_EMPTY = Rule(
     "A joint fixes a link that has no body, so there is nothing to bind.",
     None,
     "COLLADA 1.5 §attachment_full",
+    why="Who expects the joint in the World does not find it.",
 )
 JOINT_UNMAPPED = Rule(
     "kinematics-joint-skipped",
@@ -133,6 +153,7 @@ JOINT_UNMAPPED = Rule(
     "A kinematic joint cannot be a joint of a World, and is skipped.",
     "A World's joints bind two bodies and have axes at right angles.",
     "COLLADA 1.5 §joint",
+    why="The two links move freely against each other.",
 )
 JOINT_FOLLOWS = Rule(
     "kinematics-joint-follows",
@@ -140,6 +161,7 @@ JOINT_FOLLOWS = Rule(
     "Formulas make axes follow other axes, which a World cannot express.",
     "The axes move freely within their limits.",
     "COLLADA 1.5 §formula",
+    why="Grippers and parallel arms move otherwise than they should.",
 )
 JOINT_DOUBLED = Rule(
     "kinematics-joint-doubled",
@@ -147,6 +169,7 @@ JOINT_DOUBLED = Rule(
     "A kinematic joint binds two bodies that a rigid_constraint binds; the latter counts.",
     None,
     "COLLADA 1.5 §rigid_constraint",
+    why="Two joints for one would work against each other.",
 )
 JOINT_FRAMES = Rule(
     "kinematics-joint-frames",
@@ -154,6 +177,7 @@ JOINT_FRAMES = Rule(
     "The nodes put a joint elsewhere than the kinematics model does; the nodes count.",
     "Write both from the same values.",
     "COLLADA 1.5 §bind_joint_axis",
+    why="Robot and picture come apart.",
 )
 DENSITY_ASSUMED = Rule(
     "load-density-assumed",
@@ -161,6 +185,7 @@ DENSITY_ASSUMED = Rule(
     "Neither mass nor density is given: the density 1 is assumed.",
     "Give the body a mass or its shapes a density.",
     "thesis 4.4",
+    why="The body may be a thousand times too light or too heavy.",
 )
 MATERIAL_ASSUMED = Rule(
     "load-material-assumed",
@@ -168,6 +193,7 @@ MATERIAL_ASSUMED = Rule(
     "A body has no physics material: standard values are assumed.",
     "Give the body or its shapes a physics material.",
     "thesis 4.4",
+    why="How it slides and bounces is what colladaphy assumes.",
 )
 MATERIAL_BAD = Rule(
     "load-material-bad",
@@ -175,6 +201,7 @@ MATERIAL_BAD = Rule(
     "A value of a material is out of its range, and the nearest one in it is taken.",
     "Restitution is in [0, 1], frictions are not negative, density is positive.",
     "thesis 4.4",
+    why="No contact could be computed with it.",
 )
 MATERIAL_RENAMED = Rule(
     "load-material-renamed",
@@ -182,6 +209,7 @@ MATERIAL_RENAMED = Rule(
     "A material's name is in use by another one in the World; a number is appended.",
     None,
     "thesis 4.4",
+    why="Who looks for the old name finds another material.",
 )
 SYSTEM_ID_TAKEN = Rule(
     "load-system-id-taken",
@@ -189,6 +217,7 @@ SYSTEM_ID_TAKEN = Rule(
     "A body's or joint's system id is in use in the World, so it got the next free one.",
     "Load into an empty World to keep all system ids.",
     "thesis 6.1",
+    why="Who kept the old id finds another body.",
 )
 ID_LARGE = Rule(
     "load-id-large",
@@ -196,6 +225,7 @@ ID_LARGE = Rule(
     "An id has more than 64 bits, and another one is given in its place.",
     "A World's ids are whole numbers of 64 bits with a sign.",
     "thesis 6.1",
+    why="Who kept the old id does not find the body.",
 )
 HULL = Rule(
     "load-hull",
@@ -203,6 +233,7 @@ HULL = Rule(
     "The convex hull of a geometry was computed.",
     None,
     "COLLADA 1.5 §convex_mesh",
+    why="The shape is one that stands nowhere in the document.",
 )
 OPEN = Rule(
     "load-mesh-open",
@@ -210,6 +241,7 @@ OPEN = Rule(
     "The faces of a mesh do not enclose a volume: its convex hull is taken.",
     "Close the surface, and wind its faces counter-clockwise as seen from outside.",
     "COLLADA 1.5 §mesh",
+    why="Holes are filled, so mass and contacts are those of another shape.",
 )
 STALE = Rule(
     "profile-stale",
@@ -217,6 +249,7 @@ STALE = Rule(
     "The common profile was edited after the pe profile was written: the edited value is taken.",
     'Load with prefer="profile" to take the pe profile\'s value instead.',
     "thesis 6.2.1",
+    why="One of the two values is not what the author means.",
 )
 BAD_PROFILE = Rule(
     "profile-not-understood",
@@ -224,12 +257,15 @@ BAD_PROFILE = Rule(
     "The pe profile of an element does not fit its common profile, and is not used.",
     "Write the document again with colladaphy.",
     "thesis 4.3",
+    why="What it said exactly is now as coarse as the common profile.",
 )
 CHECKSUM = Rule(
     "profile-checksum",
     _WARNING,
     "The engine's state does not fit its checksum, and is left out.",
     "The simulation goes on from the bodies' state alone, not exactly as it would have.",
+    section="thesis 6.1",
+    why="A state that was changed would make the run go on from nowhere.",
 )
 
 RULES = (

@@ -28,6 +28,7 @@ DATES = Rule(
     "The document was modified before it was created.",
     "Correct one of the dates.",
     "COLLADA 1.5 §asset",
+    why="Programs that go by the dates take the older of two versions.",
 )
 INNER_AXIS = Rule(
     "asset-inner-axis",
@@ -43,6 +44,7 @@ PLACE = Rule(
     "The geographic location is not on Earth.",
     "Longitude is from -180 to 180 degrees, latitude from -90 to 90.",
     "COLLADA 1.5 §geographic_location",
+    why="Maps would show the scene nowhere.",
 )
 
 RULES = (
