@@ -87,3 +87,28 @@ def test_real_files_after_they_are_mended(corpus_dir: Path) -> None:
         if path.name == "colladatools-simple-arm-hostile.dae":
             continue  # no XML, be it mended
         check(serialise(mend(path).tree))
+
+
+def test_what_is_updated_is_not_stale(corpus_dir: Path) -> None:
+    """Bodies that have moved say so in both profiles, be they meshes about other centres."""
+    for path in sorted(corpus_dir.glob("bullet-*.dae")):
+        document = colladaphy.read(path, repair=True)
+        world = document.load()
+        for body in world.bodies:
+            if not body.fixed:
+                body.position = [value + 0.125 for value in body.position]
+                body.linear_velocity = (0.1, 0.2, 0.3)
+        document.update(world)
+        target = io.BytesIO()
+        document.write(target)
+        report = colladaphy.validate(target.getvalue())
+        assert [str(finding) for finding in report if finding.stage == "profile"] == [], path.name
+
+
+@some
+@given(worlds(min_bodies=0, extreme=True))
+def test_what_is_stored_is_not_stale(world: World) -> None:
+    target = io.BytesIO()
+    colladaphy.write(world, target)
+    report = colladaphy.validate(target.getvalue())
+    assert [str(finding) for finding in report if finding.code == "profile-old-value"] == []

@@ -31,7 +31,7 @@ _EXPECTED = {
     ("axis_info", "axis"): ("axis", "revolute", "prismatic", "axis_info"),
     ("bind_kinematics_model", "node"): ("node",),
     ("bind_joint_axis", "target"): (
-        "rotate", "translate", "matrix", "scale", "lookat", "skew", "node",
+        "rotate", "translate", "matrix", "scale", "lookat", "skew",
     ),
 }  # fmt: skip
 _HOLDERS = ("axis", "value", "active", "locked", "min", "max", "bind_kinematics_model")
@@ -51,8 +51,8 @@ def addresses(context: Context) -> Iterator[Hit]:
                 yield Hit(MISSING, reference.element, message, (), attribute, Severity.WARNING)
                 continue
             target = _exact(context, text)
-            expected = _EXPECTED[name, attribute]
-            if target >= 0 and context.name(target) not in expected:
+            expected = _EXPECTED.get((name, attribute))
+            if target >= 0 and expected and context.name(target) not in expected:
                 found = context.name(target)
                 if found.startswith("instance_"):
                     continue  # the address goes on in what is instanced

@@ -18,7 +18,7 @@ from colladaphy.meaning.hits import Hit, listed
 from colladaphy.meaning.inputs import inputs_of
 from colladaphy_schema.rows import Column, Masked, Rows
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "addressed"]
 
 Array = NDArray[Any]
 
@@ -103,7 +103,7 @@ def channels(context: Context) -> Iterator[Hit]:
             yield Hit(animation_rules.CHANNEL_TWICE, element, message, (seen[text],), "target")
             continue
         seen[text] = element
-        found = _addressed(context, text)
+        found = addressed(context, text)
         if isinstance(found, str):
             yield Hit(MISSING, element, found, (), "target", Severity.WARNING)
             continue
@@ -133,7 +133,7 @@ def _has(name: str, members: frozenset[str], width: int, member: str) -> bool:
     return len(numbers) == 1 and (not width or numbers[0] < width)
 
 
-def _addressed(context: Context, text: str) -> tuple[int, str] | str:
+def addressed(context: Context, text: str) -> tuple[int, str] | str:
     """The element that a target means, and the member of it; or why there is none."""
     head, *sids = text.split("/")
     if not sids:

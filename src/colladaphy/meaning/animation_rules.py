@@ -77,6 +77,7 @@ INTERPOLATION = Rule(
     "LINEAR, BEZIER, CARDINAL, HERMITE, BSPLINE or STEP; BEZIER and HERMITE with IN_TANGENT and "
     "OUT_TANGENT.",
     "COLLADA 1.5 §sampler",
+    why="Programs differ in how they move between the keys.",
 )
 OUTPUT_WIDTH = Rule(
     "animation-output-width",
@@ -100,9 +101,29 @@ CLIP_RANGE = Rule(
     "A clip ends before it starts.",
     "Let end be after start.",
     "COLLADA 1.5 §animation_clip",
+    why="Nothing is played.",
+)
+
+SKIN_MATRIX = Rule(
+    "animation-skin-matrix",
+    Severity.WARNING,
+    "A matrix of a skin makes everything flat, or is written column by column.",
+    "Write it row by row, with 0 0 0 1 as the last row and a determinant other than zero.",
+    "COLLADA 1.5 §joints",
+    "The vertices of that joint collapse.",
+)
+SKIN_JOINT_TWICE = Rule(
+    "animation-skin-joint-twice",
+    Severity.WARNING,
+    "A skin names a joint twice.",
+    "Name every joint once.",
+    "COLLADA 1.5 §skin",
+    "Which of the two matrices counts is different from reader to reader.",
 )
 
 RULES = (
+    SKIN_MATRIX,
+    SKIN_JOINT_TWICE,
     SKIN_COUNT,
     SKIN_INDEX,
     SKIN_SUM,

@@ -13,7 +13,7 @@ from colladaphy.columns.counting import counted
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
-from colladaphy_schema.rows import Column, Masked, Rows
+from colladaphy_schema.rows import Column, Lists, Masked, Rows
 
 __all__ = ["CHECKS", "NUMBER_ARRAYS", "TOKEN_ARRAYS", "Sources", "params_of", "sources_of"]
 
@@ -42,6 +42,15 @@ class CountRows(Rows):
 
     __slots__ = ()
     count: Column[Masked[Any]] = Column("count", "attribute", "integer", optional=True)
+
+
+class BoundRows(Rows):
+    """Arrays of whole numbers, with their bounds."""
+
+    __slots__ = ()
+    least: Column[Array] = Column("minInclusive", "attribute", "integer", default=-(2**31))
+    most: Column[Array] = Column("maxInclusive", "attribute", "integer", default=2**31 - 1)
+    value: Column[Lists] = Column("", "text", "integer", tokens=True)
 
 
 class WordRows(Rows):
@@ -122,7 +131,8 @@ class Sources:
         self.steps[at], self.counts[at] = counted(rows.stride[good]), counted(rows.count[good])
         # Of those that read past the end it cannot be told how many items there are.
         last = self.starts + self.steps * (self.counts - 1) + 1
-        lengths = np.array([self._whole(array) for array in self.arrays.tolist()], np.int64)
+        whole = [self._whole(array) for array in self.arrays.tolist()]
+        lengths = counted(np.array(whole, dtype=object))
         self.counts[(lengths >= 0) & (last > lengths) & (self.counts > 0)] = -1
 
     def _whole(self, array: int) -> int:
@@ -216,6 +226,21 @@ def counts(context: Context) -> Iterator[Hit]:
                 yield Hit(geometry_rules.ARRAY_COUNT, element, message, attribute="count")
 
 
+def bounds(context: Context) -> Iterator[Hit]:
+    """Arrays of whole numbers with some that are out of the bounds that they state."""
+    rows = context.rows(BoundRows, "int_array")
+    if not len(rows):
+        return
+    assert rows.ordinals is not None
+    for row, element in enumerate(rows.ordinals.tolist()):
+        values = rows.value[row]
+        least, most = int(rows.least[row]), int(rows.most[row])
+        outside = values[(values < least) | (values > most)]
+        if len(outside):
+            message = f"{int(outside[0])} is not between {least} and {most}."
+            yield Hit(geometry_rules.ARRAY_BOUNDS, element, message)
+
+
 def accessors(context: Context) -> Iterator[Hit]:
     """Accessors whose parameters do not fit their strides, or that read past their arrays."""
     rows = context.rows(AccessorRows, "accessor")
@@ -278,4 +303,4 @@ def _types(context: Context, array: int, params: list[tuple[str, str, int]]) -> 
             return
 
 
-CHECKS = (counts, accessors)
+CHECKS = (counts, bounds, accessors)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
@@ -12,9 +13,11 @@ from colladaphy.findings import Severity
 from colladaphy.links.rules import MISSING
 from colladaphy.meaning import animation_rules
 from colladaphy.meaning.arrays import CountRows, sources_of
-from colladaphy.meaning.context import Context, IntegerRows, NamedRows
+from colladaphy.meaning.context import Context, IntegerRows, NamedRows, TextRows
 from colladaphy.meaning.hits import Hit, listed
 from colladaphy.meaning.inputs import inputs_of
+from colladaphy.meaning.scene import degenerate_matrices
+from colladaphy.meaning.semantics import unfit_inputs
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
@@ -120,7 +123,7 @@ def geometry_size(context: Context, geometry: int) -> int | None:
     if vertices is None:
         return None
     row = inputs.named(vertices, "POSITION")
-    return None if row < 0 else inputs.count(row)
+    return None if row < 0 or row in unfit_inputs(context) else inputs.count(row)
 
 
 def _vertices(context: Context) -> dict[int, int]:
@@ -138,6 +141,7 @@ def joints(context: Context) -> Iterator[Hit]:
     inputs, table = inputs_of(context), sources_of(context)
     nodes = context.rows(NamedRows, "node")
     sids = {sid for sid in nodes.sid if sid}
+    skeletons = context.shared(_skeletons)
     told: set[int] = set()
     for element in elements.tolist():
         source = inputs.source(element, "JOINT")
@@ -163,6 +167,76 @@ def joints(context: Context) -> Iterator[Hit]:
             lost = [word for word in words if word not in sids]
             if lost:
                 yield Hit(animation_rules.SKIN_JOINT, array, f"No node has the sid {listed(lost)}.")
+                continue
+            mine = skeletons.get(int(context.parent[context.parent[element]]))
+            lost = [] if mine is None else [word for word in words if word not in mine]
+            if lost:
+                message = f"No node of the skeleton has the sid {listed(lost)}."
+                yield Hit(animation_rules.SKIN_JOINT, array, message)
+        twice = [word for word, count in Counter(words).items() if count > 1]
+        if twice and context.name(array) != "IDREF_array":
+            message = f"The joint {listed(twice)} is there more than once."
+            yield Hit(animation_rules.SKIN_JOINT_TWICE, array, message)
+
+
+def _skeletons(context: Context) -> dict[int, set[str] | None]:
+    """The sids below all skeletons of each controller; None where that cannot be told.
+
+    Where one instance has no skeleton, or nodes are instanced below it, any node may be meant.
+    """
+    instances = context.rows(Rows, "instance_controller")
+    if not len(instances):
+        return {}
+    assert instances.ordinals is not None
+    roots = context.children(instances, "skeleton", TextRows)
+    nodes = context.rows(NamedRows, "node")
+    assert nodes.ordinals is not None
+    by_node = dict(zip(nodes.ordinals.tolist(), nodes.sid, strict=True))
+    inner: dict[int, list[int]] = {}
+    for element in nodes.ordinals.tolist():
+        inner.setdefault(int(context.parent[element]), []).append(element)
+    holders = set(context.parent[context.ordinals("instance_node")].tolist())
+    targets: list[list[int]] = [[] for _ in range(len(instances))]
+    for owner, text in zip(roots.owner.tolist(), roots.value, strict=True):
+        targets[owner].append(context.target(text.strip()))
+    found: dict[int, set[str] | None] = {}
+    for controller, starts in zip(
+        context.targets(context.texts(instances, "url")).tolist(), targets, strict=True
+    ):
+        below: set[str] | None = set() if starts else None
+        waiting = list(starts)
+        while waiting and below is not None:
+            node = waiting.pop()
+            if node not in by_node or node in holders:
+                below = None
+                break
+            below.add(by_node[node] or "")
+            waiting += inner.get(node, ())
+        if controller in found:
+            known = found[controller]
+            below = None if below is None or known is None else below & known
+        found[controller] = below
+    return found
+
+
+def matrices(context: Context) -> Iterator[Hit]:
+    """Inverse bind matrices that are flat, or written column by column."""
+    inputs, table, unfit = inputs_of(context), sources_of(context), unfit_inputs(context)
+    told: set[int] = set()
+    for element in context.ordinals("joints").tolist():
+        row = inputs.named(element, "INV_BIND_MATRIX")
+        source = -1 if row < 0 else int(inputs.sources[row])
+        items = None if source < 0 or row in unfit else table.numbers(source)
+        if items is None or items.shape[1] != 16 or not np.isfinite(items).all() or source in told:
+            continue
+        told.add(source)
+        wrong, flat = degenerate_matrices(items.reshape(-1, 4, 4))
+        for each, what in ((wrong, "has another last row than 0 0 0 1"), (flat, "is flat")):
+            if each.any():
+                message = f"Matrix {int(np.flatnonzero(each)[0])} {what}"
+                message += f", and {int(each.sum()) - 1} more." if each.sum() > 1 else "."
+                yield Hit(animation_rules.SKIN_MATRIX, int(table.arrays[source]), message,
+                          (int(inputs.elements[row]),))  # fmt: skip
 
 
 def morphs(context: Context) -> Iterator[Hit]:
@@ -199,4 +273,4 @@ def morphs(context: Context) -> Iterator[Hit]:
                 break
 
 
-CHECKS = (weights, joints, morphs)
+CHECKS = (weights, joints, matrices, morphs)

@@ -36,6 +36,7 @@ PARAM_TYPE = Rule(
     "A parameter of an accessor is of another type than its array.",
     "Let the type be that of the array's values.",
     "COLLADA 1.5 §param",
+    why="Programs that go by the type misread the values.",
 )
 INPUT_TWICE = Rule(
     "geometry-input-twice",
@@ -91,6 +92,7 @@ FEW_CORNERS = Rule(
     "A face, fan, strip or line has too few corners to be one.",
     "Remove it; a face has at least three corners, a line two.",
     "COLLADA 1.5 §polygons",
+    why="There is nothing to show or to collide with.",
 )
 NUMBER = Rule(
     "geometry-number",
@@ -149,7 +151,63 @@ NO_VOLUME = Rule(
     "It has neither mass nor inertia, and the body cannot be loaded.",
 )
 
+INPUT_VALUES = Rule(
+    "geometry-input-values",
+    Severity.ERROR,
+    "The values of an input are not what its semantic needs.",
+    "Let it lead to a source of that kind: three numbers for positions and normals, 16 for "
+    "matrices, names for joints.",
+    "COLLADA 1.5 §input",
+    "Readers refuse it, or take values for others.",
+)
+ACCESSOR_MISSING = Rule(
+    "geometry-accessor-missing",
+    Severity.ERROR,
+    "A source does not say how it is read.",
+    "Add <technique_common> with an <accessor>.",
+    "COLLADA 1.5 §source",
+    "How many values make an item cannot be told.",
+)
+VERTEX_COUNT = Rule(
+    "geometry-vertex-count",
+    Severity.ERROR,
+    "The inputs of vertices differ in number.",
+    "Give every vertex one position, and one value of each other input.",
+    "COLLADA 1.5 §vertices",
+    "Vertices are left without a value, or have that of another one.",
+)
+PARAM_TWICE = Rule(
+    "geometry-param-twice",
+    Severity.WARNING,
+    "Two parameters of an accessor have the same name.",
+    "Name them X Y Z, S T P, or R G B A.",
+    "COLLADA 1.5 §param",
+    "Readers that go by the names take one value twice, and lose another.",
+)
+NO_FACES = Rule(
+    "geometry-no-faces",
+    Severity.WARNING,
+    "The geometry of a shape has no faces.",
+    'Give it triangles or polygons, or use its convex hull: <convex_mesh convex_hull_of="#id"/>.',
+    "COLLADA 1.5 §shape",
+    "It encloses no volume, and the body cannot be loaded.",
+)
+ARRAY_BOUNDS = Rule(
+    "geometry-array-bounds",
+    Severity.WARNING,
+    "An array holds a number that is not between the bounds that it states.",
+    "Correct the number, or minInclusive and maxInclusive.",
+    "COLLADA 1.5 §int_array",
+    why="Programs that rely on the bounds refuse the number, or cut it off.",
+)
+
 RULES = (
+    INPUT_VALUES,
+    ACCESSOR_MISSING,
+    VERTEX_COUNT,
+    PARAM_TWICE,
+    NO_FACES,
+    ARRAY_BOUNDS,
     ARRAY_COUNT,
     ACCESSOR_RANGE,
     ACCESSOR_STRIDE,

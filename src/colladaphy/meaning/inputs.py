@@ -94,10 +94,8 @@ class Inputs:
             return table.count(int(self.sources[row]))
         if context.name(target) != "vertices":
             return None
-        counts = [table.count(int(self.sources[inner])) for inner in self.of(target)
-                  if self.sources[inner] >= 0]  # fmt: skip
-        known = [count for count in counts if count is not None]
-        return min(known) if known else None
+        source = self.source(target, "POSITION")
+        return None if source < 0 else table.count(source)
 
 
 def inputs_of(context: Context) -> Inputs:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from colladaphy.findings import Severity
 from colladaphy.meaning import physics_rules
 from colladaphy.meaning.body_table import bodies_of
-from colladaphy.meaning.constraint_table import constraints_of
+from colladaphy.meaning.constraint_table import constraints_of, limits_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy_schema.rows import Rows
@@ -91,6 +91,32 @@ def springs(context: Context) -> Iterator[Hit]:
                           severity=Severity.ERROR if nothing else None)  # fmt: skip
 
 
+def targets(context: Context) -> Iterator[Hit]:
+    """Springs that pull to where no axis of the joint can be."""
+    rows = context.rows(Rows, "rigid_constraint")
+    common = context.children(rows, "technique_common", Rows)
+    springs = context.children(common, "spring", Rows)
+    if not len(springs):
+        return
+    for name, other in (("linear", "linear"), ("angular", "swing_cone_and_twist")):
+        groups = context.children(springs, name, Rows)
+        values, elements = context.scalars(groups, "target_value")
+        owners = common.owner[springs.owner[groups.owner]]
+        low, high = (column[owners] for column in limits_of(context, other))
+        free = (low < high) | ~(low <= high)
+        outside = (low <= high) & ((values[:, None] < low) | (values[:, None] > high))
+        wrong = (elements >= 0) & np.isfinite(values) & free.any(axis=1)
+        wrong &= (outside | ~free).all(axis=1)
+        for row in np.flatnonzero(wrong).tolist():
+            if looks_like_radians(np.append(low[row], high[row])):
+                continue
+            shown = ", ".join(
+                f"{low[row, axis]:g} to {high[row, axis]:g}" for axis in np.flatnonzero(free[row])
+            )
+            message = f"The {name} spring pulls to {values[row]:g}, but the limits are {shown}."
+            yield Hit(physics_rules.JOINT_TARGET, int(elements[row]), message)
+
+
 def ends(context: Context) -> Iterator[Hit]:
     """Joints of bodies with themselves, or between such as cannot move."""
     table, bodies = constraints_of(context), bodies_of(context)
@@ -116,4 +142,4 @@ def ends(context: Context) -> Iterator[Hit]:
             )
 
 
-CHECKS = (limits, springs, ends)
+CHECKS = (limits, springs, targets, ends)

@@ -52,6 +52,7 @@ IMAGE_EMPTY = Rule(
     "An image names no file.",
     "Give it the name of a file, or remove the image and what uses it.",
     "COLLADA 1.5 §init_from",
+    why="Surfaces with it show no picture.",
 )
 IMAGE_ABSOLUTE = Rule(
     "link-image-absolute",
@@ -83,6 +84,7 @@ MATERIAL_TWICE = Rule(
     "A symbol is bound to two materials.",
     "Remove one of them.",
     "COLLADA 1.5 §bind_material",
+    why="Programs differ in which of the two they show.",
 )
 VERTEX_INPUT = Rule(
     "link-vertex-input",
@@ -117,7 +119,35 @@ CHANNEL_MEMBER = Rule(
     "The animation does nothing.",
 )
 
+CONSTRAINT_TWICE = Rule(
+    "link-constraint-twice",
+    Severity.WARNING,
+    "A constraint is instanced twice in one instance of its model.",
+    "Remove one of the instances.",
+    "COLLADA 1.5 §instance_rigid_constraint",
+    "The bodies are bound twice, and springs are twice as stiff.",
+)
+SCENE_TWICE = Rule(
+    "link-scene-twice",
+    Severity.WARNING,
+    "A physics scene is instanced twice.",
+    "Remove one of the instances.",
+    "COLLADA 1.5 §instance_physics_scene",
+    "All bodies are there twice, in the same places.",
+)
+NODE_NOWHERE = Rule(
+    "link-node-nowhere",
+    Severity.WARNING,
+    "The node that a body moves stands in no scene.",
+    "Instance the node in the visual scene, or name another one.",
+    "COLLADA 1.5 §instance_rigid_body",
+    "Where the body is cannot be told, and nothing that is seen moves.",
+)
+
 RULES = (
+    CONSTRAINT_TWICE,
+    SCENE_TWICE,
+    NODE_NOWHERE,
     NO_HASH,
     BODY_TWICE,
     BODY_NOT_INSTANCED,

@@ -203,6 +203,19 @@ def named_parts(context: Context) -> Iterator[Hit]:
             yield Hit(MISSING, int(found.elements[row]), message, (), attribute)
 
 
+def constraints_once(context: Context) -> Iterator[Hit]:
+    """Constraints that are instanced twice."""
+    found = instanced_constraints(context)
+    seen: dict[tuple[int, int], int] = {}
+    for element, around, part in zip(
+        found.elements.tolist(), found.around.tolist(), found.parts.tolist(), strict=True
+    ):
+        first = seen.setdefault((around, part), element)
+        if part >= 0 and first != element:
+            message = f"{context.label(part)} is instanced already in this instance of its model."
+            yield Hit(link_rules.CONSTRAINT_TWICE, element, message, (first, part), "constraint")
+
+
 def _broken(context: Context) -> set[int]:
     """Instances of models with an instance of a body that is not there."""
     found = instanced_bodies(context)
@@ -287,4 +300,4 @@ def ends(context: Context) -> Iterator[Hit]:
                 )
 
 
-CHECKS = (named_parts, attachments, ends)
+CHECKS = (named_parts, constraints_once, attachments, ends)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from colladaphy.links.affine import skew_matrix, stretch_of
 from colladaphy.links.rules import NOT_RIGID, SEVERAL_PLACES
 from colladaphy.links.steps import matrix_of, own_transforms
-from colladaphy.meaning import physics_rules
+from colladaphy.meaning import link_rules, physics_rules
 from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
@@ -32,8 +32,12 @@ def rigid(context: Context) -> Iterator[Hit]:
         return
     nodes = nodes_of(context)
     users: defaultdict[int, list[int]] = defaultdict(list)
-    for instance, target in nodes.targets.items():
-        if target < 0:
+    parents = {
+        reference.element: context.target(reference.text)
+        for reference in context.references("parent", "instance_physics_model")
+    }
+    for instance, target in [*nodes.targets.items(), *parents.items()]:
+        if target not in nodes.parents:
             continue
         mine = [element for node in nodes.chain(target) for element in odd.get(node, ())]
         if len(mine) > 1 and _cancels(context, nodes, target):
@@ -133,4 +137,23 @@ def _nested(nodes: Nodes) -> bool:
     return any(parent in nodes.parents for parent in nodes.parents.values())
 
 
-CHECKS = (rigid, placed)
+def nowhere(context: Context) -> Iterator[Hit]:
+    """Bodies of scenes in effect whose nodes are in no visual scene that is seen."""
+    nodes = nodes_of(context)
+    lost = [
+        (instance, target)
+        for instance, target in nodes.targets.items()
+        if target >= 0 and not nodes.places(target)
+    ]
+    if not lost:
+        return
+    references = context.references("url", "instance_physics_scene")
+    shown = {context.target(reference.text) for reference in references}
+    scenes = context.ancestor(np.array([instance for instance, _ in lost]), "physics_scene")
+    for (instance, target), scene in zip(lost, scenes.tolist(), strict=True):
+        if scene in shown:
+            message = f"{context.label(target)} stands in no visual scene that is instanced."
+            yield Hit(link_rules.NODE_NOWHERE, instance, message, (target,), "target")
+
+
+CHECKS = (rigid, placed, nowhere)

@@ -228,6 +228,7 @@ JOINT_FIXED = Rule(
     "A joint is between two bodies that cannot move.",
     "Remove it, or let one of the bodies be dynamic.",
     "COLLADA 1.5 §rigid_constraint",
+    why="Who wrote the joint expected something to move.",
 )
 FRAMES_APART = Rule(
     "physics-frames-apart",
@@ -294,7 +295,35 @@ SEVERAL_GRAVITIES = Rule(
     "Loaded into one world, all bodies have the gravity of the first.",
 )
 
+NODE_ANIMATED = Rule(
+    "physics-node-animated",
+    Severity.WARNING,
+    "An animation moves the node of a body that moves.",
+    "Remove the animation, or say <dynamic>false</dynamic>.",
+    "COLLADA 1.5 §channel, §instance_rigid_body",
+    "The node follows one of them, or jumps from one to the other.",
+)
+GRAVITY_UP = Rule(
+    "physics-gravity-up",
+    Severity.WARNING,
+    "The gravity points up.",
+    "Give it the opposite sign.",
+    "COLLADA 1.5 §gravity, §up_axis",
+    "Everything falls into the sky.",
+)
+JOINT_TARGET = Rule(
+    "physics-joint-target",
+    Severity.WARNING,
+    "A spring pulls to where the joint cannot be.",
+    "Let the target be within the limits.",
+    "COLLADA 1.5 §spring",
+    "Spring and limit work against each other all the time.",
+)
+
 RULES = (
+    NODE_ANIMATED,
+    GRAVITY_UP,
+    JOINT_TARGET,
     MASS_FRAME,
     MASS_VALUE,
     MASS_ZERO,

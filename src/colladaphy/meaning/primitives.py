@@ -14,6 +14,7 @@ from colladaphy.meaning.arrays import CountRows
 from colladaphy.meaning.context import Context, IntegerRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.inputs import PRIMITIVES, inputs_of
+from colladaphy.meaning.semantics import unfit_inputs
 from colladaphy_schema.rows import Lists
 
 __all__ = ["CHECKS"]
@@ -152,18 +153,24 @@ def _polylist(group: _Group) -> Iterator[Hit]:
 
 
 def indices(context: Context) -> Iterator[Hit]:
-    """Indices past the ends of what they lead to."""
-    inputs = inputs_of(context)
+    """Indices past the ends of what they lead to.
+
+    Where an index is lacking it is not told which of the others are wrong.
+    """
+    inputs, unfit = inputs_of(context), unfit_inputs(context)
     for group in groups_of(context):
         limits: dict[int, tuple[int, str]] = {}
         for row in inputs.of(group.element):
             count = inputs.count(row)
-            if count is None:
+            behind = inputs.named(int(inputs.targets[row]), "POSITION")
+            if count is None or row in unfit or behind in unfit:
                 continue
             offset = int(inputs.offsets[row])
             if offset not in limits or count < limits[offset][0]:
                 limits[offset] = count, inputs.semantics[row]
         for element, values in group.parts:
+            if len(values) % (group.stride * _PER_FACE.get(group.name, 1)):
+                continue  # which index is of what cannot be told
             for offset, (count, semantic) in sorted(limits.items()):
                 mine = values[offset :: group.stride]
                 if len(mine) and int(mine.max()) >= count:

@@ -188,6 +188,11 @@ def ids(context: Context) -> Iterator[Hit]:
         keys = list(
             zip(models.tolist(), [int(text) for text in texts if text is not None], strict=True)
         )
+        low = [element for element, key in zip(elements[there].tolist(), keys, strict=True)
+               if key[1] < 1]  # fmt: skip
+        for element in low:
+            message = "A system id is a positive number; the next free one is taken."
+            yield Hit(profile_rules.SYSTEM_ID, element, message, (), "sid")
         if len(set(keys)) == len(keys):
             continue
         seen: dict[tuple[int, int], int] = {}
@@ -196,6 +201,26 @@ def ids(context: Context) -> Iterator[Hit]:
             if first != element and key[0] >= 0:
                 message = f"The system id {key[1]} is that of another one in the model."
                 yield Hit(profile_rules.SYSTEM_ID, element, message, (first,), "sid")
+
+
+def once(context: Context) -> Iterator[Hit]:
+    """Profiles of one element that are there twice."""
+    profile = profile_of(context)
+    for name in ("world", "body", "motion", "joint", "material"):
+        elements = profile.elements(name)
+        techniques = context.ancestor(elements, "technique")
+        direct = context.parent[elements] == techniques
+        holders = np.where(techniques >= 0, context.parent[techniques], -1)
+        if name == "material":  # a world has many
+            direct &= context.is_named(holders, "physics_material", "extra")
+        seen: dict[int, int] = {}
+        for element, holder in zip(
+            elements[direct].tolist(), holders[direct].tolist(), strict=True
+        ):
+            if holder in seen:
+                message = f"There is a <pe:{name}> of {context.label(holder)} already."
+                yield Hit(profile_rules.TWICE, element, message, (seen[holder], holder))
+            seen.setdefault(holder, element)
 
 
 def unions(context: Context) -> Iterator[Hit]:
@@ -237,4 +262,4 @@ def profile_codes(context: Context) -> tuple[int, ...]:
     return context.columns.codes_of(f"{{{PE}}}body")
 
 
-CHECKS = (places, namespaces, numbers, ranges, links, ids, unions)
+CHECKS = (places, namespaces, numbers, ranges, links, ids, once, unions)

@@ -52,8 +52,8 @@ QUATERNION = Rule(
 SYSTEM_ID = Rule(
     "profile-system-id",
     Severity.WARNING,
-    "Two bodies, or two joints, of a model have the same system id.",
-    "Give each its own, or leave the ids out.",
+    "Two bodies, or two joints, of a model have the same system id, or one has none.",
+    "Give each its own, from 1 on, or leave the ids out.",
     "thesis 6.1",
     "The second one gets the next free id.",
 )
@@ -93,7 +93,17 @@ ENGINE_STATE = Rule(
     "It is left out: the simulation goes on from the bodies' state alone, not exactly as it would.",
 )
 
+TWICE = Rule(
+    "profile-twice",
+    Severity.WARNING,
+    "The pe profile of an element is there twice.",
+    "Remove one of them.",
+    "docs/pe-profile.md",
+    "The first one counts, and the other is not read.",
+)
+
 RULES = (
+    TWICE,
     VALUE,
     ENGINE_STATE,
     PLACE,

@@ -66,6 +66,7 @@ ADDRESSES: Final = (
     ("axis_info", "axis"),
     ("bind_kinematics_model", "node"),
     ("bind_joint_axis", "target"),
+    ("bind", "target"),
 )
 """Attributes that hold SID addresses, through instances too (COLLADA 1.5 §Address syntax)."""
 

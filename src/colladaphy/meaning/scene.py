@@ -192,6 +192,11 @@ def lights(context: Context) -> Iterator[Hit]:
     for element, value in zip(angles.ordinals.tolist(), angles.value.tolist(), strict=True):
         if not 0.0 < value <= 180.0:
             yield Hit(scene_rules.LIGHT, element, f"The falloff angle is {value:g} degrees.")
+    exponents = spots.falloff_exponent
+    assert exponents.ordinals is not None
+    for element, value in zip(exponents.ordinals.tolist(), exponents.value.tolist(), strict=True):
+        if not value >= 0.0:
+            yield Hit(scene_rules.LIGHT, element, f"The falloff exponent is {value:g}.")
 
 
 CHECKS = (numbers, rotations, scales, matrices, lookats, skews, cameras, lights)

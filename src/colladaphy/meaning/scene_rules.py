@@ -52,6 +52,7 @@ SKEW = Rule(
     "A skew has no direction.",
     "Give it two axes that are not parallel, and an angle between -90 and 90 degrees.",
     "COLLADA 1.5 §skew",
+    why="Programs compute values that are no numbers.",
 )
 CAMERA_CLIP = Rule(
     "scene-camera-clip",
@@ -75,9 +76,30 @@ LIGHT = Rule(
     "A value of a light is out of its range.",
     "Attenuations are not negative and not all zero; a falloff angle is between 0 and 180 degrees.",
     "COLLADA 1.5 §light",
+    why="Programs show no light, or one without end.",
+)
+
+COLOR = Rule(
+    "scene-color",
+    Severity.WARNING,
+    "A colour is none.",
+    "Components are from 0 to 1, and never NaN; those of bright lights may be larger.",
+    "COLLADA 1.5 §color",
+    "The surface is black, or brighter than everything.",
+)
+EFFECT_VALUE = Rule(
+    "scene-effect-value",
+    Severity.WARNING,
+    "A number of an effect is out of its range.",
+    "Transparency and reflectivity are from 0 to 1, shininess is not negative, the index of "
+    "refraction is positive.",
+    "COLLADA 1.5 §phong",
+    why="Programs cut the number off, each in its own way.",
 )
 
 RULES = (
+    COLOR,
+    EFFECT_VALUE,
     TRANSFORM_NUMBER,
     ROTATE_AXIS,
     SCALE_ZERO,

@@ -69,6 +69,7 @@ def masses(context: Context) -> Iterator[Hit]:
     for row in np.flatnonzero(zero).tolist():
         yield Hit(physics_rules.DENSITY_ZERO, int(shapes.density_elements[row]),
                   "The density is 0, and the body moves.")  # fmt: skip
+    yield from _weightless(context, good_mass & (shapes.masses == 0.0) & moves & ~good_density)
     both = good_mass & good_density & ~shapes.hollow
     expected = shapes.densities * shapes.volumes
     wrong = both & (np.abs(expected - shapes.masses) > _SAME * np.maximum(expected, shapes.masses))
@@ -79,6 +80,22 @@ def masses(context: Context) -> Iterator[Hit]:
         )
         yield Hit(physics_rules.MASS_DENSITY, int(shapes.density_elements[row]), message,
                   (int(shapes.mass_elements[row]),))  # fmt: skip
+
+
+def _weightless(context: Context, empty: Array) -> Iterator[Hit]:
+    """Shapes of mass zero in bodies that have no other mass."""
+    shapes, bodies = shapes_of(context), bodies_of(context)
+    heavy = np.ones(len(bodies.elements), np.bool_)
+    holders, counts = np.unique(shapes.holders, return_counts=True)
+    light = np.bincount(shapes.holders, empty, minlength=len(heavy))
+    heavy[holders] = light[holders] < counts
+    for row in np.flatnonzero(empty & ~heavy[shapes.holders]).tolist():
+        holder = int(shapes.holders[row])
+        mine = bodies.instances(holder)
+        given = bool(len(mine)) and bool(np.all(bodies.masses[mine] > 0.0))
+        if bodies.mass_elements[holder] < 0 and not given:
+            message = f"{context.label(int(bodies.elements[holder]))} moves, but its mass is 0."
+            yield Hit(physics_rules.MASS_ZERO, int(shapes.mass_elements[row]), message)
 
 
 def centres(context: Context) -> Iterator[Hit]:
@@ -136,11 +153,19 @@ def _unweighed(context: Context) -> Iterator[Hit]:
     thin[shapes.holders[rows]] = rows
     hollow = thin >= 0
     heavy = weighed | (bodies.mass_elements >= 0)
-    profiled = _profiled(context)
+    profiled, partly = _profiled(context), _partly(context)
+    for row in [
+        row
+        for row in partly
+        if bool(np.all(bodies.masses[bodies.instances(row)] > 0.0)) and len(bodies.instances(row))
+    ]:
+        del partly[row]  # the instances say the whole mass
     for row in np.flatnonzero(~bodies.is_instance & bodies.moves & ~plane).tolist():
         if profiled[row]:
             continue
         if heavy[row] and not hollow[row]:
+            if row in partly:
+                yield _light(context, row, partly[row])
             continue
         moving = bodies.instances(row)
         moving = moving[bodies.moves[moving]]
@@ -152,6 +177,28 @@ def _unweighed(context: Context) -> Iterator[Hit]:
         elif not heavy[row] and not given:
             message = f"{context.label(int(bodies.elements[row]))} moves, but nobody says its mass."
             yield Hit(physics_rules.MASS_MISSING, int(bodies.elements[row]), message)
+
+
+def _partly(context: Context) -> dict[int, int]:
+    """The first shape without mass or density of bodies of which other shapes have some."""
+    shapes, bodies = shapes_of(context), bodies_of(context)
+    stated = (shapes.mass_elements >= 0) | (shapes.density_elements >= 0)
+    weighed = np.zeros(len(bodies.elements), np.bool_)
+    weighed[shapes.holders[stated]] = True
+    found: dict[int, int] = {}
+    for row in np.flatnonzero(~stated).tolist():
+        holder = int(shapes.holders[row])
+        if weighed[holder] and bodies.mass_elements[holder] < 0:
+            found.setdefault(holder, row)
+    return found
+
+
+def _light(context: Context, row: int, shape: int) -> Hit:
+    shapes, bodies = shapes_of(context), bodies_of(context)
+    name = context.label(int(bodies.elements[row]))
+    message = f"Other shapes of {name} have a mass or density, but nobody says that of this one."
+    return Hit(physics_rules.MASS_MISSING, int(shapes.elements[shape]), message,
+               (int(bodies.elements[row]),))  # fmt: skip
 
 
 def _profiled(context: Context) -> Array:

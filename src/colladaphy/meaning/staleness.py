@@ -191,6 +191,8 @@ def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, Array, 
         rods[found.owner] = height != 0.0
     planes = np.zeros(len(shapes.elements), np.bool_)
     planes[context.children(shapes.rows, "plane", Rows).owner] = True
+    # The body of a mesh stands at its centre of mass.
+    meshes = {row for row, _ in shapes.meshes()}
     order = np.argsort(shapes.holders, kind="stable")
     holders = shapes.holders[order]
     frames = set(context.ancestor(context.ordinals("mass_frame"), "rigid_body",
@@ -217,7 +219,7 @@ def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, Array, 
             turn = quaternion_product(pose.orientations, _ROD)
             pose = Poses.of(1, pose.positions, turn, moved=pose.moved)
         made.put(np.array([at]), pose if not framed else Poses.none(1))
-        known[at] = not framed
+        known[at] = not framed and shape not in meshes
     return made, known, flat
 
 

@@ -62,6 +62,23 @@ def convex_meshes(context: Context) -> Iterator[Hit]:
             yield Hit(geometry_rules.NOT_CONVEX, element, message, (geometry,))
 
 
+def faces(context: Context) -> Iterator[Hit]:
+    """Shapes of geometries that have nothing but points and lines."""
+    shapes = shapes_of(context)
+    if not shapes.meshes():
+        return
+    there = context.ordinals("triangles", "polygons", "polylist", "trifans", "tristrips")
+    with_faces = set(context.ancestor(there, "geometry").tolist())
+    others = context.first_children("mesh", "spline")
+    for row, geometry in shapes.meshes():
+        if geometry in others and geometry not in with_faces:
+            name = context.name(others[geometry])
+            message = f"{context.label(geometry)} is a <{name}> without faces."
+            instances = context.first_children("instance_geometry")
+            element = instances.get(int(shapes.elements[row]), int(shapes.elements[row]))
+            yield Hit(geometry_rules.NO_FACES, element, message, (others[geometry],), "url")
+
+
 def _dent(surface: Surface) -> float:
     """How far a closed surface that is wound outwards is from convex across its edges."""
     points, triangles = surface.points, surface.triangles
@@ -126,4 +143,4 @@ def _content(context: Context, geometry: int) -> int:
     return context.first_children("mesh", "convex_mesh").get(geometry, geometry)
 
 
-CHECKS = (convex_meshes, moving_meshes)
+CHECKS = (faces, convex_meshes, moving_meshes)

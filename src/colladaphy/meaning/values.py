@@ -12,6 +12,7 @@ from colladaphy.meaning.arrays import sources_of
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.inputs import inputs_of
+from colladaphy.meaning.semantics import unfit_inputs
 
 __all__ = ["CHECKS"]
 
@@ -40,11 +41,11 @@ def numbers(context: Context) -> Iterator[Hit]:
 
 def normals(context: Context) -> Iterator[Hit]:
     """Sources of directions with some that have no length."""
-    inputs, table = inputs_of(context), sources_of(context)
+    inputs, table, unfit = inputs_of(context), sources_of(context), unfit_inputs(context)
     seen: set[int] = set()
     for row, semantic in enumerate(inputs.semantics):
         source = int(inputs.sources[row])
-        if semantic not in _DIRECTIONS or source < 0 or source in seen:
+        if semantic not in _DIRECTIONS or source < 0 or source in seen or row in unfit:
             continue
         seen.add(source)
         items = table.numbers(source)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.meaning import physics_rules
+from colladaphy.meaning import link_rules, physics_rules
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy_schema.rows import Rows
@@ -42,6 +42,15 @@ def scenes(context: Context) -> Iterator[Hit]:
         if len(along) == 1 and int(along[0]) != up and abs(strength * size - _EARTH) < 0.1:
             message = f"The gravity is {shown}, but {context.resource.up_axis} is up."
             yield Hit(physics_rules.GRAVITY_AXIS, element, message)
+        elif len(along) == 1 and vector[up] > 0.0 and abs(strength * size - _EARTH) < 0.1:
+            message = f"The gravity is {shown}, and {context.resource.up_axis} is up."
+            yield Hit(physics_rules.GRAVITY_UP, element, message)
+        elif (other := _other_unit(strength, size)) is not None:
+            message = (
+                f"The gravity is {shown}, as where the unit is {other}, but it is {size:g} "
+                f"metres: 9.81 m/s² are {_EARTH / size:g} here."
+            )
+            yield Hit(physics_rules.GRAVITY_UNIT, element, message)
         elif abs(strength - _EARTH) < 0.05 and 0.0 < size < np.inf and not 0.5 < size < 2.0:
             message = (
                 f"The gravity is {shown}, but the unit is {size:g} metres: 9.81 m/s² are "
@@ -58,10 +67,26 @@ def scenes(context: Context) -> Iterator[Hit]:
             yield Hit(physics_rules.TIME_STEP_LONG, element, f"The time step is {step:g} seconds.")
 
 
+def _other_unit(strength: float, size: float) -> str | None:
+    """The unit in which a gravity is that of the Earth, where it is far from that in this one."""
+    if not 0.0 < size < np.inf or 0.1 < strength * size / _EARTH < 10.0:
+        return None
+    for name, metres in (("centimetre", 0.01), ("millimetre", 0.001), ("inch", 0.0254)):
+        if abs(strength * metres / _EARTH - 1.0) < 2e-3:
+            return f"a {name}" if name != "inch" else "an inch"
+    return None
+
+
 def together(context: Context) -> Iterator[Hit]:
     """Scenes in effect that differ."""
     references = context.references("url", "instance_physics_scene")
     targets = [context.target(reference.text) for reference in references]
+    seen: dict[int, int] = {}
+    for reference, target in zip(references, targets, strict=True):
+        before = seen.setdefault(target, reference.element)
+        if target >= 0 and before != reference.element:
+            message = f"{context.label(target)} is instanced already."
+            yield Hit(link_rules.SCENE_TWICE, reference.element, message, (before,), "url")
     known = list(dict.fromkeys(target for target in targets if target >= 0))
     if len(known) < 2:
         return

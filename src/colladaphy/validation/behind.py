@@ -27,7 +27,7 @@ from colladaphy.validation.mendable import with_repairs
 from colladaphy.validation.older import violations_1_4
 from colladaphy.validation.options import Options
 from colladaphy.validation.schema_stage import Found, schema_hits, with_schema_repairs
-from colladaphy.validation.touched import touched
+from colladaphy.validation.touched import SEPARATORS, Touched, touched
 
 __all__ = ["Came", "check_behind", "check_meaning"]
 
@@ -105,9 +105,8 @@ def check_behind(came: Came, first: Found | None, options: Options) -> list[Find
         if mended.by_element[element] >= 0
     ]
     if first:
-        changed, moved = touched(start, form)
-        known = frozenset(current.numbers[number] for number in changed)
-        meant = [hit for hit in meant if not _is_ours(hit, known, moved, whole.parents)]
+        ours = _Ours(touched(start, form), current, whole)
+        meant = [hit for hit in meant if not ours.has_part_in(hit)]
     return came.told(hits + with_repairs(meant, whole))
 
 
@@ -131,12 +130,29 @@ def _translated(hits: Iterable[Hit | Finding], copy: Copy) -> list[Hit]:
     return found
 
 
-def _is_ours(hit: Hit, changed: frozenset[int], moved: bool, parents: dict[int, int]) -> bool:
-    """Whether the mending has a part in what a rule says."""
-    around = [hit.element, *hit.related]
-    if hit.rule.code in _COMPARED:
-        around += [(above := parents.get(hit.element, -1)), parents.get(above, -1)]
-    return not changed.isdisjoint(around) or (moved and hit.rule.code in _PLACED)
+class _Ours:
+    """What a mending has done, by the numbers of a document."""
+
+    def __init__(self, done: Touched, current: Copy, whole: Copy) -> None:
+        self._done, self._parents = done, whole.parents
+        self._changed = {current.numbers[number] for number in done.changed}
+        self._around = {current.numbers[number] for number in done.around}
+        self._elements = {number: element for element, number in whole.by_element.items()}
+
+    def has_part_in(self, hit: Hit) -> bool:
+        """Whether it may be the mending that a rule speaks of."""
+        if hit.rule.stage == "link" and hit.attribute is not None:
+            # A reference is right or wrong by itself, where nobody has taken its target away.
+            text = self._elements[hit.element].get(hit.attribute) or ""
+            names = text.translate(SEPARATORS).split()
+            return hit.element in self._changed or not self._done.names.isdisjoint(names)
+        around = [hit.element, *hit.related]
+        if hit.rule.code in _COMPARED:
+            above = self._parents.get(hit.element, -1)
+            around += [above, self._parents.get(above, -1)]
+        if self._done.moved and hit.rule.code in _PLACED:
+            return True
+        return not self._around.isdisjoint(around)
 
 
 def _is_1_4(tree: etree._ElementTree) -> bool:

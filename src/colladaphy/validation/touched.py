@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from dataclasses import dataclass
 from functools import cache
 
 from lxml import etree
 
-from colladaphy.conform.context import local
+from colladaphy.conform.context import CONFORM, local
 from colladaphy.conform.grammar import all_types
 from colladaphy.validation.copies import Copy
 
-__all__ = ["touched"]
+__all__ = ["SEPARATORS", "Touched", "touched"]
 
 _ENDS = frozenset(
     {"COLLADA", "visual_scene", "physics_scene", "physics_model", "kinematics_model", "animation"}
@@ -21,25 +22,54 @@ _REFERRING = (
     "url", "source", "target", "parent", "body", "constraint", "rigid_body", "convex_hull_of",
     "joint", "link", "axis", "node", "texture", "param", "ref",
 )  # fmt: skip
-_NAMES = str.maketrans("#/.()", "     ")
+SEPARATORS = str.maketrans("#/.()", "     ")
 _MOVING = frozenset(
     {"matrix", "translate", "rotate", "scale", "skew", "lookat", "unit", "up_axis", "asset"}
 )
 """What places everything below it, so that nothing is sure of where things stand."""
 
 
-def touched(before: Copy, after: Copy) -> tuple[frozenset[int], bool]:
-    """The elements of a document, by number, whose meaning is not that of the document any more.
+@dataclass(frozen=True, slots=True)
+class Touched:
+    """What a mending has changed; elements by their numbers."""
 
-    They are what was changed, what it is part of, and what refers to it. The second value says
-    whether things may stand elsewhere now. `before` is the document itself.
-    """
+    changed: frozenset[int] = frozenset()
+    """Elements with another text, other attributes or other children."""
+    around: frozenset[int] = frozenset()
+    """These, what they are part of, and what refers to them."""
+    names: frozenset[str] = frozenset()
+    """Ids and sids that are not there any more."""
+    moved: bool = False
+    """Whether things may stand elsewhere now, or be of another size."""
+
+
+def touched(before: Copy, after: Copy) -> Touched:
+    """The elements whose meaning is not that of the document any more; `before` is that itself."""
     changed = _changed(before, after)
     if not changed:
-        return frozenset(), False
+        return Touched()
     elements = {number: element for element, number in before.by_element.items()}
-    moved = any(local(elements[number]) in _MOVING for number in changed if number in elements)
-    return frozenset(_spread(changed, elements, before)), moved
+    now = {number: element for element, number in after.by_element.items()}
+    names = set()
+    for number in changed:
+        old, new = elements[number], now.get(number)
+        set_aside = new is None or new.getparent() is None or _is_set_aside(new)
+        for key in ("id", "sid"):
+            name = old.get(key)
+            if name and (set_aside or new is None or new.get(key) != name):
+                names.add(name)
+    there = {element.get(key) for element in after.by_element for key in ("id", "sid")}
+    return Touched(
+        frozenset(changed),
+        frozenset(_spread(changed, elements, before)),
+        frozenset(names - there),
+        any(local(elements[number]) in _MOVING for number in changed),
+    )
+
+
+def _is_set_aside(element: etree._Element) -> bool:
+    parent = element.getparent()
+    return parent is not None and str(parent.tag).startswith(f"{{{CONFORM}}}")
 
 
 def _changed(before: Copy, after: Copy) -> set[int]:
@@ -79,7 +109,8 @@ def _differ(old: etree._Element, new: etree._Element) -> bool:
 
 @cache
 def _known_attributes() -> frozenset[str]:
-    return frozenset(name for kind in all_types() for name in kind.attributes)
+    names = {name for kind in all_types() for name in kind.attributes}
+    return frozenset(names - {"digits", "magnitude", "name"})
 
 
 @cache
@@ -93,7 +124,7 @@ def _spread(changed: set[int], elements: dict[int, etree._Element], before: Copy
     for element, number in before.by_element.items():
         for key in _REFERRING:
             if value := element.get(key):
-                for name in value.translate(_NAMES).split():
+                for name in value.translate(SEPARATORS).split():
                     referring[name].append(number)
     found: set[int] = set()
     waiting = list(changed)
