@@ -26,7 +26,7 @@ class ChannelTypeRows(Rows):
     """Rows of the type channel_type."""
 
     __slots__ = ()
-    source: Column[list[str]] = Column("source", "attribute", "string")
+    source: Column[list[str]] = Column("source", "attribute", "string", restriction="(#(.*))")
     target: Column[list[str]] = Column("target", "attribute", "token")
 
 
@@ -66,10 +66,10 @@ class SamplerTypeRows(Rows):
     __slots__ = ()
     id: Column[list[str | None]] = Column("id", "attribute", "name", optional=True)
     post_behavior: Column[list[str | None]] = Column(
-        "post_behavior", "attribute", "name", optional=True
+        "post_behavior", "attribute", "name", optional=True, restriction="other"
     )
     pre_behavior: Column[list[str | None]] = Column(
-        "pre_behavior", "attribute", "name", optional=True
+        "pre_behavior", "attribute", "name", optional=True, restriction="other"
     )
     input: Child[InputLocalTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}input",

@@ -86,8 +86,12 @@ class MorphTypeRows(Rows):
     """Rows of the type morph_type."""
 
     __slots__ = ()
-    source_attribute: Column[list[str]] = Column("source", "attribute", "token")
-    method: Column[list[str]] = Column("method", "attribute", "name", default="NORMALIZED")
+    source_attribute: Column[list[str]] = Column(
+        "source", "attribute", "token", restriction="anyURI"
+    )
+    method: Column[list[str]] = Column(
+        "method", "attribute", "name", default="NORMALIZED", restriction="other"
+    )
     source: Child[SourceTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}source",
         "core_columns:SourceTypeRows",
@@ -108,7 +112,9 @@ class SkinTypeRows(Rows):
     """Rows of the type skin_type."""
 
     __slots__ = ()
-    source_attribute: Column[list[str]] = Column("source", "attribute", "token")
+    source_attribute: Column[list[str]] = Column(
+        "source", "attribute", "token", restriction="anyURI"
+    )
     bind_shape_matrix: Column[Masked[Floats]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}bind_shape_matrix",
         "element",

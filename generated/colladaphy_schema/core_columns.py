@@ -31,12 +31,14 @@ class AssetTypeContributorRows(Rows):
         "element",
         "string",
         optional=True,
+        restriction="[A-Za-z0-9!#-'\\*\\+\\-/=\\?\\^_`\\{-~]+(\\.[A-Za-z0-9!#-'\\*\\+\\-/=\\?\\^_`\\{-~]+)*@[A-Za-z0-9!#-'\\*\\+\\-/=\\?\\^_`\\{-~]+(\\.[A-Za-z0-9!#-'\\*\\+\\-/=\\?\\^_`\\{-~]+)*",
     )
     author_website: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}author_website",
         "element",
         "token",
         optional=True,
+        restriction="anyURI",
     )
     authoring_tool: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}authoring_tool",
@@ -58,6 +60,7 @@ class AssetTypeContributorRows(Rows):
         "element",
         "token",
         optional=True,
+        restriction="anyURI",
     )
 
 
@@ -86,8 +89,12 @@ class FloatArrayTypeRows(Rows):
     id: Column[list[str | None]] = Column("id", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
     count: Column[Integers] = Column("count", "attribute", "integer")
-    digits: Column[Integers] = Column("digits", "attribute", "integer", default=6)
-    magnitude: Column[Integers] = Column("magnitude", "attribute", "integer", default=38)
+    digits: Column[Integers] = Column(
+        "digits", "attribute", "integer", default=6, restriction="other"
+    )
+    magnitude: Column[Integers] = Column(
+        "magnitude", "attribute", "integer", default=38, restriction="other"
+    )
     value: Column[Lists] = Column("", "text", "float", tokens=True)
 
 
@@ -98,14 +105,14 @@ class IdrefArrayTypeRows(Rows):
     id: Column[list[str | None]] = Column("id", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
     count: Column[Integers] = Column("count", "attribute", "integer")
-    value: Column[list[list[str]]] = Column("", "text", "name", tokens=True)
+    value: Column[list[list[str]]] = Column("", "text", "name", tokens=True, restriction="other")
 
 
 class InputGlobalTypeRows(Rows):
     """Rows of the type input_global_type."""
 
     __slots__ = ()
-    source: Column[list[str]] = Column("source", "attribute", "token")
+    source: Column[list[str]] = Column("source", "attribute", "token", restriction="anyURI")
     semantic: Column[list[str]] = Column("semantic", "attribute", "name")
 
 
@@ -113,7 +120,7 @@ class InputLocalOffsetTypeRows(Rows):
     """Rows of the type input_local_offset_type."""
 
     __slots__ = ()
-    source: Column[list[str]] = Column("source", "attribute", "string")
+    source: Column[list[str]] = Column("source", "attribute", "string", restriction="(#(.*))")
     offset: Column[Integers] = Column("offset", "attribute", "integer")
     semantic: Column[list[str]] = Column("semantic", "attribute", "name")
     set: Column[Masked[Integers]] = Column("set", "attribute", "integer", optional=True)
@@ -123,7 +130,7 @@ class InputLocalTypeRows(Rows):
     """Rows of the type input_local_type."""
 
     __slots__ = ()
-    source: Column[list[str]] = Column("source", "attribute", "string")
+    source: Column[list[str]] = Column("source", "attribute", "string", restriction="(#(.*))")
     semantic: Column[list[str]] = Column("semantic", "attribute", "name")
 
 
@@ -178,7 +185,13 @@ class SidrefArrayTypeRows(Rows):
     id: Column[list[str | None]] = Column("id", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
     count: Column[Integers] = Column("count", "attribute", "integer")
-    value: Column[list[list[str]]] = Column("", "text", "string", tokens=True)
+    value: Column[list[list[str]]] = Column(
+        "",
+        "text",
+        "string",
+        tokens=True,
+        restriction="(([\\i-[:]][\\c-[:]]*)|.)(/[\\i-[:\\.]][\\c-[:]]*)+((\\.[\\i-[:]][\\c-[:]]*)|(\\([0-9]+\\)){1,2})?",
+    )
 
 
 class TargetableFloat3TypeRows(Rows):
@@ -235,7 +248,7 @@ class AccessorTypeRows(Rows):
     """Rows of the type accessor_type."""
 
     __slots__ = ()
-    source: Column[list[str]] = Column("source", "attribute", "token")
+    source: Column[list[str]] = Column("source", "attribute", "token", restriction="anyURI")
     count: Column[Integers] = Column("count", "attribute", "integer")
     offset: Column[Integers] = Column("offset", "attribute", "integer", default=0)
     stride: Column[Integers] = Column("stride", "attribute", "integer", default=1)
@@ -250,7 +263,9 @@ class AssetTypeCoverageGeographicLocationAltitudeRows(Rows):
     """Rows of the type asset_type_coverage_geographic_location_altitude."""
 
     __slots__ = ()
-    mode: Column[list[str]] = Column("mode", "attribute", "name", default="relativeToGround")
+    mode: Column[list[str]] = Column(
+        "mode", "attribute", "name", default="relativeToGround", restriction="other"
+    )
     value: Column[Floats] = Column("", "text", "float")
 
 
@@ -311,7 +326,7 @@ class InstanceWithExtraTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
     extra: Child[ExtraTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}extra",
         "core_columns:ExtraTypeRows",
@@ -382,6 +397,7 @@ class AssetTypeRows(Rows):
         "name",
         empty="Y_UP",
         optional=True,
+        restriction="other",
     )
     extra: Child[ExtraTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}extra",

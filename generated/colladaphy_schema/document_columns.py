@@ -90,8 +90,10 @@ class ColladaRows(Rows):
     """Rows of the element COLLADA."""
 
     __slots__ = ()
-    xml_base: Column[list[str | None]] = Column("xml:base", "attribute", "token", optional=True)
-    version: Column[list[str]] = Column("version", "attribute", "name")
+    xml_base: Column[list[str | None]] = Column(
+        "xml:base", "attribute", "token", optional=True, restriction="anyURI"
+    )
+    version: Column[list[str]] = Column("version", "attribute", "name", restriction="other")
     asset: Child[AssetTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}asset", "core_columns:AssetTypeRows"
     )

@@ -49,6 +49,7 @@ class FormulaNewparamTypeRows(Rows):
         "string",
         group=1,
         optional=True,
+        restriction="(([\\i-[:]][\\c-[:]]*)|.)(/[\\i-[:\\.]][\\c-[:]]*)+((\\.[\\i-[:]][\\c-[:]]*)|(\\([0-9]+\\)){1,2})?",
     )
     bool: Column[Masked[Bools]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -84,6 +85,7 @@ class FormulaSetparamTypeRows(Rows):
         "string",
         group=1,
         optional=True,
+        restriction="(([\\i-[:]][\\c-[:]]*)|.)(/[\\i-[:\\.]][\\c-[:]]*)+((\\.[\\i-[:]][\\c-[:]]*)|(\\([0-9]+\\)){1,2})?",
     )
     bool: Column[Masked[Bools]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -115,7 +117,9 @@ class InstanceFormulaTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str | None]] = Column("url", "attribute", "token", optional=True)
+    url: Column[list[str | None]] = Column(
+        "url", "attribute", "token", optional=True, restriction="anyURI"
+    )
     setparam: Child[FormulaSetparamTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}setparam",
         "formulas_columns:FormulaSetparamTypeRows",

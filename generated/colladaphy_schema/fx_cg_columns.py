@@ -178,7 +178,7 @@ class CgArrayTypeEnumValueRows(Rows):
     """Rows of enum in CgArrayType."""
 
     __slots__ = ()
-    value: Column[list[str]] = Column("", "text", "name")
+    value: Column[list[str]] = Column("", "text", "name", restriction="other")
 
 
 class CgPassTypeProgramShaderSourcesInlineValueRows(Rows):
@@ -1234,7 +1234,7 @@ class CgArrayTypeRows(Rows):
     """Rows of the type cg_array_type."""
 
     __slots__ = ()
-    length: Column[Integers] = Column("length", "attribute", "integer")
+    length: Column[Integers] = Column("length", "attribute", "integer", restriction="other")
     resizable: Column[Bools] = Column("resizable", "attribute", "boolean", default=False)
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -1850,7 +1850,11 @@ class CgNewparamTypeRows(Rows):
         "{http://www.collada.org/2008/03/COLLADASchema}semantic", "element", "name", optional=True
     )
     modifier: Column[list[str | None]] = Column(
-        "{http://www.collada.org/2008/03/COLLADASchema}modifier", "element", "name", optional=True
+        "{http://www.collada.org/2008/03/COLLADASchema}modifier",
+        "element",
+        "name",
+        optional=True,
+        restriction="other",
     )
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -2381,6 +2385,7 @@ class CgNewparamTypeRows(Rows):
         "name",
         group=4,
         optional=True,
+        restriction="other",
     )
     array: Child[CgArrayTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}array",
@@ -2936,6 +2941,7 @@ class CgPassTypeProgramShaderBindUniformRows(Rows):
         "name",
         group=1,
         optional=True,
+        restriction="other",
     )
     array: Child[CgArrayTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}array",
@@ -3485,6 +3491,7 @@ class CgSetparamTypeRows(Rows):
         "name",
         group=1,
         optional=True,
+        restriction="other",
     )
     array: Child[CgArrayTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}array",
@@ -3504,7 +3511,7 @@ class CgPassTypeProgramShaderRows(Rows):
     """Rows of the type cg_pass_type_program_shader."""
 
     __slots__ = ()
-    stage: Column[list[str]] = Column("stage", "attribute", "name")
+    stage: Column[list[str]] = Column("stage", "attribute", "name", restriction="other")
     sources: Child[CgPassTypeProgramShaderSourcesRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}sources",
         "fx_cg_columns:CgPassTypeProgramShaderSourcesRows",

@@ -177,7 +177,7 @@ class FxClearstencilTypeRows(Rows):
 
     __slots__ = ()
     index: Column[Integers] = Column("index", "attribute", "integer", default=0)
-    value: Column[Integers] = Column("", "text", "integer")
+    value: Column[Integers] = Column("", "text", "integer", restriction="other")
 
 
 class FxCodeTypeRows(Rows):
@@ -223,7 +223,7 @@ class FxIncludeTypeRows(Rows):
 
     __slots__ = ()
     sid: Column[list[str]] = Column("sid", "attribute", "name")
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
 
 
 class FxRendertargetTypeParamRows(Rows):
@@ -283,7 +283,9 @@ class FxRendertargetTypeRows(Rows):
     """Rows of the type fx_rendertarget_type."""
 
     __slots__ = ()
-    face: Column[list[str]] = Column("face", "attribute", "name", default="POSITIVE_X")
+    face: Column[list[str]] = Column(
+        "face", "attribute", "name", default="POSITIVE_X", restriction="other"
+    )
     index: Column[Integers] = Column("index", "attribute", "integer", default=0)
     mip: Column[Integers] = Column("mip", "attribute", "integer", default=0)
     slice: Column[Integers] = Column("slice", "attribute", "integer", default=0)
@@ -316,6 +318,7 @@ class FxSamplerTypeRows(Rows):
         "name",
         empty="WRAP",
         optional=True,
+        restriction="other",
     )
     wrap_t: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}wrap_t",
@@ -323,6 +326,7 @@ class FxSamplerTypeRows(Rows):
         "name",
         empty="WRAP",
         optional=True,
+        restriction="other",
     )
     wrap_p: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}wrap_p",
@@ -330,6 +334,7 @@ class FxSamplerTypeRows(Rows):
         "name",
         empty="WRAP",
         optional=True,
+        restriction="other",
     )
     minfilter: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}minfilter",
@@ -337,6 +342,7 @@ class FxSamplerTypeRows(Rows):
         "name",
         empty="LINEAR",
         optional=True,
+        restriction="other",
     )
     magfilter: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}magfilter",
@@ -344,6 +350,7 @@ class FxSamplerTypeRows(Rows):
         "name",
         empty="LINEAR",
         optional=True,
+        restriction="other",
     )
     mipfilter: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}mipfilter",
@@ -351,6 +358,7 @@ class FxSamplerTypeRows(Rows):
         "name",
         empty="LINEAR",
         optional=True,
+        restriction="other",
     )
     border_color: Column[Masked[Floats]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}border_color",
@@ -366,6 +374,7 @@ class FxSamplerTypeRows(Rows):
         "integer",
         empty="0",
         optional=True,
+        restriction="other",
     )
     mip_min_level: Column[Masked[Integers]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}mip_min_level",
@@ -373,6 +382,7 @@ class FxSamplerTypeRows(Rows):
         "integer",
         empty="0",
         optional=True,
+        restriction="other",
     )
     mip_bias: Column[Masked[Floats]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}mip_bias",
@@ -423,6 +433,7 @@ class FxTargetTypeBinaryRows(Rows):
         "token",
         group=1,
         optional=True,
+        restriction="anyURI",
     )
     hex: Child[FxTargetTypeBinaryHexRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}hex",
@@ -437,7 +448,7 @@ class ProfileBridgeTypeRows(Rows):
 
     __slots__ = ()
     id: Column[list[str | None]] = Column("id", "attribute", "name", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
     platform: Column[list[str | None]] = Column("platform", "attribute", "name", optional=True)
     asset: Child[AssetTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}asset",
@@ -455,7 +466,9 @@ class FxColortargetTypeRows(Rows):
     """Rows of the type fx_colortarget_type."""
 
     __slots__ = ()
-    face: Column[list[str]] = Column("face", "attribute", "name", default="POSITIVE_X")
+    face: Column[list[str]] = Column(
+        "face", "attribute", "name", default="POSITIVE_X", restriction="other"
+    )
     index: Column[Integers] = Column("index", "attribute", "integer", default=0)
     mip: Column[Integers] = Column("mip", "attribute", "integer", default=0)
     slice: Column[Integers] = Column("slice", "attribute", "integer", default=0)
@@ -501,7 +514,9 @@ class FxDepthtargetTypeRows(Rows):
     """Rows of the type fx_depthtarget_type."""
 
     __slots__ = ()
-    face: Column[list[str]] = Column("face", "attribute", "name", default="POSITIVE_X")
+    face: Column[list[str]] = Column(
+        "face", "attribute", "name", default="POSITIVE_X", restriction="other"
+    )
     index: Column[Integers] = Column("index", "attribute", "integer", default=0)
     mip: Column[Integers] = Column("mip", "attribute", "integer", default=0)
     slice: Column[Integers] = Column("slice", "attribute", "integer", default=0)
@@ -559,7 +574,9 @@ class FxStenciltargetTypeRows(Rows):
     """Rows of the type fx_stenciltarget_type."""
 
     __slots__ = ()
-    face: Column[list[str]] = Column("face", "attribute", "name", default="POSITIVE_X")
+    face: Column[list[str]] = Column(
+        "face", "attribute", "name", default="POSITIVE_X", restriction="other"
+    )
     index: Column[Integers] = Column("index", "attribute", "integer", default=0)
     mip: Column[Integers] = Column("mip", "attribute", "integer", default=0)
     slice: Column[Integers] = Column("slice", "attribute", "integer", default=0)
@@ -635,7 +652,9 @@ class FxCommonTransparentTypeRows(Rows):
     """Rows of the type fx_common_transparent_type."""
 
     __slots__ = ()
-    opaque: Column[list[str]] = Column("opaque", "attribute", "name", default="A_ONE")
+    opaque: Column[list[str]] = Column(
+        "opaque", "attribute", "name", default="A_ONE", restriction="other"
+    )
     color: Child[FxCommonColorOrTextureTypeColorRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}color",
         "fx_common_columns:FxCommonColorOrTextureTypeColorRows",
@@ -670,7 +689,11 @@ class FxNewparamTypeRows(Rows):
         "{http://www.collada.org/2008/03/COLLADASchema}semantic", "element", "name", optional=True
     )
     modifier: Column[list[str | None]] = Column(
-        "{http://www.collada.org/2008/03/COLLADASchema}modifier", "element", "name", optional=True
+        "{http://www.collada.org/2008/03/COLLADASchema}modifier",
+        "element",
+        "name",
+        optional=True,
+        restriction="other",
     )
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",

@@ -25,7 +25,7 @@ class CgPassTypeStatesAlphaFuncValueRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
+    value: Column[Floats] = Column("value", "attribute", "float", default=0.0, restriction="other")
 
 
 class CgPassTypeStatesAlphaTestEnableRows(Rows):
@@ -68,7 +68,9 @@ class CgPassTypeStatesClipPlaneRows(Rows):
     """Rows of the type cg_pass_type_states_clip_plane."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -89,7 +91,9 @@ class CgPassTypeStatesClipPlaneEnableRows(Rows):
     """Rows of the type cg_pass_type_states_clip_plane_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -262,7 +266,7 @@ class CgPassTypeStatesLightAmbientRows(Rows):
     """Rows of the type cg_pass_type_states_light_ambient."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -283,7 +287,7 @@ class CgPassTypeStatesLightConstantAttenuationRows(Rows):
     """Rows of the type cg_pass_type_states_light_constant_attenuation."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=1.0)
 
@@ -292,7 +296,7 @@ class CgPassTypeStatesLightDiffuseRows(Rows):
     """Rows of the type cg_pass_type_states_light_diffuse."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -313,7 +317,7 @@ class CgPassTypeStatesLightEnableRows(Rows):
     """Rows of the type cg_pass_type_states_light_enable."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -322,7 +326,7 @@ class CgPassTypeStatesLightLinearAttenuationRows(Rows):
     """Rows of the type cg_pass_type_states_light_linear_attenuation."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
 
@@ -367,7 +371,7 @@ class CgPassTypeStatesLightPositionRows(Rows):
     """Rows of the type cg_pass_type_states_light_position."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -388,7 +392,7 @@ class CgPassTypeStatesLightQuadraticAttenuationRows(Rows):
     """Rows of the type cg_pass_type_states_light_quadratic_attenuation."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
 
@@ -397,7 +401,7 @@ class CgPassTypeStatesLightSpecularRows(Rows):
     """Rows of the type cg_pass_type_states_light_specular."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -418,7 +422,7 @@ class CgPassTypeStatesLightSpotCutoffRows(Rows):
     """Rows of the type cg_pass_type_states_light_spot_cutoff."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=180.0)
 
@@ -427,7 +431,7 @@ class CgPassTypeStatesLightSpotDirectionRows(Rows):
     """Rows of the type cg_pass_type_states_light_spot_direction."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -447,7 +451,7 @@ class CgPassTypeStatesLightSpotExponentRows(Rows):
     """Rows of the type cg_pass_type_states_light_spot_exponent."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
 
@@ -850,7 +854,9 @@ class CgPassTypeStatesStencilFuncMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilFuncRefRows(Rows):
@@ -858,7 +864,9 @@ class CgPassTypeStatesStencilFuncRefRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=0)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=0, restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilFuncSeparateMaskRows(Rows):
@@ -866,7 +874,9 @@ class CgPassTypeStatesStencilFuncSeparateMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilFuncSeparateRefRows(Rows):
@@ -874,7 +884,9 @@ class CgPassTypeStatesStencilFuncSeparateRefRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=0)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=0, restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilMaskRows(Rows):
@@ -890,7 +902,9 @@ class CgPassTypeStatesStencilMaskSeparateMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilTestEnableRows(Rows):
@@ -905,7 +919,7 @@ class CgPassTypeStatesTexture1DRows(Rows):
     """Rows of the type cg_pass_type_states_texture1D."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSampler1DTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSampler1DTypeRows",
@@ -925,7 +939,9 @@ class CgPassTypeStatesTexture1DEnableRows(Rows):
     """Rows of the type cg_pass_type_states_texture1D_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -934,7 +950,7 @@ class CgPassTypeStatesTexture2DRows(Rows):
     """Rows of the type cg_pass_type_states_texture2D."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSampler2DTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSampler2DTypeRows",
@@ -954,7 +970,9 @@ class CgPassTypeStatesTexture2DEnableRows(Rows):
     """Rows of the type cg_pass_type_states_texture2D_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -963,7 +981,7 @@ class CgPassTypeStatesTexture3DRows(Rows):
     """Rows of the type cg_pass_type_states_texture3D."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSampler3DTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSampler3DTypeRows",
@@ -983,7 +1001,9 @@ class CgPassTypeStatesTexture3DEnableRows(Rows):
     """Rows of the type cg_pass_type_states_texture3D_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -992,7 +1012,7 @@ class CgPassTypeStatesTextureCubeRows(Rows):
     """Rows of the type cg_pass_type_states_textureCUBE."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSamplerCubeTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSamplerCubeTypeRows",
@@ -1012,7 +1032,9 @@ class CgPassTypeStatesTextureCubeEnableRows(Rows):
     """Rows of the type cg_pass_type_states_textureCUBE_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -1021,7 +1043,7 @@ class CgPassTypeStatesTextureDepthRows(Rows):
     """Rows of the type cg_pass_type_states_textureDEPTH."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSamplerDepthTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSamplerDepthTypeRows",
@@ -1041,7 +1063,9 @@ class CgPassTypeStatesTextureDepthEnableRows(Rows):
     """Rows of the type cg_pass_type_states_textureDEPTH_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -1050,7 +1074,7 @@ class CgPassTypeStatesTextureRectRows(Rows):
     """Rows of the type cg_pass_type_states_textureRECT."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSamplerRectTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSamplerRectTypeRows",
@@ -1070,7 +1094,9 @@ class CgPassTypeStatesTextureRectEnableRows(Rows):
     """Rows of the type cg_pass_type_states_textureRECT_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -1079,7 +1105,9 @@ class CgPassTypeStatesTextureEnvColorRows(Rows):
     """Rows of the type cg_pass_type_states_texture_env_color."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Masked[Floats]] = Column(
         "value", "attribute", "float", optional=True, tokens=True, width=4
@@ -1090,7 +1118,9 @@ class CgPassTypeStatesTextureEnvModeRows(Rows):
     """Rows of the type cg_pass_type_states_texture_env_mode."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[list[str | None]] = Column("value", "attribute", "string", optional=True)
 
@@ -1100,7 +1130,7 @@ class ProfileGlslTypeTechniquePassStatesAlphaFuncValueRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
+    value: Column[Floats] = Column("value", "attribute", "float", default=0.0, restriction="other")
 
 
 class ProfileGlslTypeTechniquePassStatesAlphaTestEnableRows(Rows):
@@ -1143,7 +1173,9 @@ class ProfileGlslTypeTechniquePassStatesClipPlaneRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_clip_plane."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -1164,7 +1196,9 @@ class ProfileGlslTypeTechniquePassStatesClipPlaneEnableRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_clip_plane_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -1337,7 +1371,7 @@ class ProfileGlslTypeTechniquePassStatesLightAmbientRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_ambient."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -1358,7 +1392,7 @@ class ProfileGlslTypeTechniquePassStatesLightConstantAttenuationRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_constant_attenuation."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=1.0)
 
@@ -1367,7 +1401,7 @@ class ProfileGlslTypeTechniquePassStatesLightDiffuseRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_diffuse."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -1388,7 +1422,7 @@ class ProfileGlslTypeTechniquePassStatesLightEnableRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_enable."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -1397,7 +1431,7 @@ class ProfileGlslTypeTechniquePassStatesLightLinearAttenuationRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_linear_attenuation."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
 
@@ -1442,7 +1476,7 @@ class ProfileGlslTypeTechniquePassStatesLightPositionRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_position."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -1463,7 +1497,7 @@ class ProfileGlslTypeTechniquePassStatesLightQuadraticAttenuationRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_quadratic_attenuation."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
 
@@ -1472,7 +1506,7 @@ class ProfileGlslTypeTechniquePassStatesLightSpecularRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_specular."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -1493,7 +1527,7 @@ class ProfileGlslTypeTechniquePassStatesLightSpotCutoffRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_spot_cutoff."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=180.0)
 
@@ -1502,7 +1536,7 @@ class ProfileGlslTypeTechniquePassStatesLightSpotDirectionRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_spot_direction."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -1522,7 +1556,7 @@ class ProfileGlslTypeTechniquePassStatesLightSpotExponentRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_light_spot_exponent."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
 
@@ -1925,7 +1959,9 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilFuncRefRows(Rows):
@@ -1933,7 +1969,9 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncRefRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=0)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=0, restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateMaskRows(Rows):
@@ -1941,7 +1979,9 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateRefRows(Rows):
@@ -1949,7 +1989,9 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateRefRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=0)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=0, restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilMaskRows(Rows):
@@ -1965,7 +2007,9 @@ class ProfileGlslTypeTechniquePassStatesStencilMaskSeparateMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilTestEnableRows(Rows):
@@ -1980,7 +2024,7 @@ class ProfileGlslTypeTechniquePassStatesTexture1DRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_texture1D."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSampler1DTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSampler1DTypeRows",
@@ -2000,7 +2044,9 @@ class ProfileGlslTypeTechniquePassStatesTexture1DEnableRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_texture1D_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -2009,7 +2055,7 @@ class ProfileGlslTypeTechniquePassStatesTexture2DRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_texture2D."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSampler2DTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSampler2DTypeRows",
@@ -2029,7 +2075,9 @@ class ProfileGlslTypeTechniquePassStatesTexture2DEnableRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_texture2D_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -2038,7 +2086,7 @@ class ProfileGlslTypeTechniquePassStatesTexture3DRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_texture3D."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSampler3DTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSampler3DTypeRows",
@@ -2058,7 +2106,9 @@ class ProfileGlslTypeTechniquePassStatesTexture3DEnableRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_texture3D_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -2067,7 +2117,7 @@ class ProfileGlslTypeTechniquePassStatesTextureCubeRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_textureCUBE."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSamplerCubeTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSamplerCubeTypeRows",
@@ -2087,7 +2137,9 @@ class ProfileGlslTypeTechniquePassStatesTextureCubeEnableRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_textureCUBE_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -2096,7 +2148,7 @@ class ProfileGlslTypeTechniquePassStatesTextureDepthRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_textureDEPTH."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSamplerDepthTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSamplerDepthTypeRows",
@@ -2116,7 +2168,9 @@ class ProfileGlslTypeTechniquePassStatesTextureDepthEnableRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_textureDEPTH_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -2125,7 +2179,7 @@ class ProfileGlslTypeTechniquePassStatesTextureRectRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_textureRECT."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     value: Child[FxSamplerRectTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}value",
         "fx_common_columns:FxSamplerRectTypeRows",
@@ -2145,7 +2199,9 @@ class ProfileGlslTypeTechniquePassStatesTextureRectEnableRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_textureRECT_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -2154,7 +2210,9 @@ class ProfileGlslTypeTechniquePassStatesTextureEnvColorRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_texture_env_color."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Masked[Floats]] = Column(
         "value", "attribute", "float", optional=True, tokens=True, width=4
@@ -2165,7 +2223,9 @@ class ProfileGlslTypeTechniquePassStatesTextureEnvModeRows(Rows):
     """Rows of the type profile_glsl_type_technique_pass_states_texture_env_mode."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[list[str | None]] = Column("value", "attribute", "string", optional=True)
 
@@ -2175,7 +2235,9 @@ class CgPassTypeStatesAlphaFuncFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class CgPassTypeStatesBlendEquationRows(Rows):
@@ -2183,7 +2245,9 @@ class CgPassTypeStatesBlendEquationRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FUNC_ADD")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FUNC_ADD", restriction="other"
+    )
 
 
 class CgPassTypeStatesBlendEquationSeparateAlphaRows(Rows):
@@ -2191,7 +2255,9 @@ class CgPassTypeStatesBlendEquationSeparateAlphaRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FUNC_ADD")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FUNC_ADD", restriction="other"
+    )
 
 
 class CgPassTypeStatesBlendEquationSeparateRgbRows(Rows):
@@ -2199,7 +2265,9 @@ class CgPassTypeStatesBlendEquationSeparateRgbRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FUNC_ADD")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FUNC_ADD", restriction="other"
+    )
 
 
 class CgPassTypeStatesBlendFuncDestRows(Rows):
@@ -2207,7 +2275,9 @@ class CgPassTypeStatesBlendFuncDestRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class CgPassTypeStatesBlendFuncSeparateDestAlphaRows(Rows):
@@ -2215,7 +2285,9 @@ class CgPassTypeStatesBlendFuncSeparateDestAlphaRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class CgPassTypeStatesBlendFuncSeparateDestRgbRows(Rows):
@@ -2223,7 +2295,9 @@ class CgPassTypeStatesBlendFuncSeparateDestRgbRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class CgPassTypeStatesBlendFuncSeparateSrcAlphaRows(Rows):
@@ -2231,7 +2305,9 @@ class CgPassTypeStatesBlendFuncSeparateSrcAlphaRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class CgPassTypeStatesBlendFuncSeparateSrcRgbRows(Rows):
@@ -2239,7 +2315,9 @@ class CgPassTypeStatesBlendFuncSeparateSrcRgbRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class CgPassTypeStatesBlendFuncSrcRows(Rows):
@@ -2247,7 +2325,9 @@ class CgPassTypeStatesBlendFuncSrcRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class CgPassTypeStatesColorMaterialFaceRows(Rows):
@@ -2255,7 +2335,9 @@ class CgPassTypeStatesColorMaterialFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class CgPassTypeStatesColorMaterialModeRows(Rows):
@@ -2263,7 +2345,9 @@ class CgPassTypeStatesColorMaterialModeRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="AMBIENT_AND_DIFFUSE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="AMBIENT_AND_DIFFUSE", restriction="other"
+    )
 
 
 class CgPassTypeStatesCullFaceRows(Rows):
@@ -2271,7 +2355,9 @@ class CgPassTypeStatesCullFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="BACK", restriction="other"
+    )
 
 
 class CgPassTypeStatesDepthFuncRows(Rows):
@@ -2279,7 +2365,9 @@ class CgPassTypeStatesDepthFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class CgPassTypeStatesFogCoordSrcRows(Rows):
@@ -2287,7 +2375,9 @@ class CgPassTypeStatesFogCoordSrcRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FOG_COORDINATE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FOG_COORDINATE", restriction="other"
+    )
 
 
 class CgPassTypeStatesFogModeRows(Rows):
@@ -2295,7 +2385,9 @@ class CgPassTypeStatesFogModeRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="EXP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="EXP", restriction="other"
+    )
 
 
 class CgPassTypeStatesFrontFaceRows(Rows):
@@ -2303,7 +2395,9 @@ class CgPassTypeStatesFrontFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="CCW")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="CCW", restriction="other"
+    )
 
 
 class CgPassTypeStatesLightModelColorControlRows(Rows):
@@ -2311,7 +2405,9 @@ class CgPassTypeStatesLightModelColorControlRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="SINGLE_COLOR")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="SINGLE_COLOR", restriction="other"
+    )
 
 
 class CgPassTypeStatesLogicOpRows(Rows):
@@ -2319,7 +2415,9 @@ class CgPassTypeStatesLogicOpRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="COPY")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="COPY", restriction="other"
+    )
 
 
 class CgPassTypeStatesPolygonModeFaceRows(Rows):
@@ -2327,7 +2425,9 @@ class CgPassTypeStatesPolygonModeFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class CgPassTypeStatesPolygonModeModeRows(Rows):
@@ -2335,7 +2435,9 @@ class CgPassTypeStatesPolygonModeModeRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FILL")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FILL", restriction="other"
+    )
 
 
 class CgPassTypeStatesShadeModelRows(Rows):
@@ -2343,7 +2445,9 @@ class CgPassTypeStatesShadeModelRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="SMOOTH")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="SMOOTH", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilFuncFuncRows(Rows):
@@ -2351,7 +2455,9 @@ class CgPassTypeStatesStencilFuncFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilFuncSeparateBackRows(Rows):
@@ -2359,7 +2465,9 @@ class CgPassTypeStatesStencilFuncSeparateBackRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilFuncSeparateFrontRows(Rows):
@@ -2367,7 +2475,9 @@ class CgPassTypeStatesStencilFuncSeparateFrontRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilMaskSeparateFaceRows(Rows):
@@ -2375,7 +2485,9 @@ class CgPassTypeStatesStencilMaskSeparateFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilOpFailRows(Rows):
@@ -2383,7 +2495,9 @@ class CgPassTypeStatesStencilOpFailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilOpSeparateFaceRows(Rows):
@@ -2391,7 +2505,9 @@ class CgPassTypeStatesStencilOpSeparateFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilOpSeparateFailRows(Rows):
@@ -2399,7 +2515,9 @@ class CgPassTypeStatesStencilOpSeparateFailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilOpSeparateZfailRows(Rows):
@@ -2407,7 +2525,9 @@ class CgPassTypeStatesStencilOpSeparateZfailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilOpSeparateZpassRows(Rows):
@@ -2415,7 +2535,9 @@ class CgPassTypeStatesStencilOpSeparateZpassRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilOpZfailRows(Rows):
@@ -2423,7 +2545,9 @@ class CgPassTypeStatesStencilOpZfailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class CgPassTypeStatesStencilOpZpassRows(Rows):
@@ -2431,7 +2555,9 @@ class CgPassTypeStatesStencilOpZpassRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesAlphaFuncFuncRows(Rows):
@@ -2439,7 +2565,9 @@ class ProfileGlslTypeTechniquePassStatesAlphaFuncFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesBlendEquationRows(Rows):
@@ -2447,7 +2575,9 @@ class ProfileGlslTypeTechniquePassStatesBlendEquationRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FUNC_ADD")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FUNC_ADD", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesBlendEquationSeparateAlphaRows(Rows):
@@ -2455,7 +2585,9 @@ class ProfileGlslTypeTechniquePassStatesBlendEquationSeparateAlphaRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FUNC_ADD")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FUNC_ADD", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesBlendEquationSeparateRgbRows(Rows):
@@ -2463,7 +2595,9 @@ class ProfileGlslTypeTechniquePassStatesBlendEquationSeparateRgbRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FUNC_ADD")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FUNC_ADD", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesBlendFuncDestRows(Rows):
@@ -2471,7 +2605,9 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncDestRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestAlphaRows(Rows):
@@ -2479,7 +2615,9 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestAlphaRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestRgbRows(Rows):
@@ -2487,7 +2625,9 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateDestRgbRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcAlphaRows(Rows):
@@ -2495,7 +2635,9 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcAlphaRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcRgbRows(Rows):
@@ -2503,7 +2645,9 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSeparateSrcRgbRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesBlendFuncSrcRows(Rows):
@@ -2511,7 +2655,9 @@ class ProfileGlslTypeTechniquePassStatesBlendFuncSrcRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesColorMaterialFaceRows(Rows):
@@ -2519,7 +2665,9 @@ class ProfileGlslTypeTechniquePassStatesColorMaterialFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesColorMaterialModeRows(Rows):
@@ -2527,7 +2675,9 @@ class ProfileGlslTypeTechniquePassStatesColorMaterialModeRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="AMBIENT_AND_DIFFUSE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="AMBIENT_AND_DIFFUSE", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesCullFaceRows(Rows):
@@ -2535,7 +2685,9 @@ class ProfileGlslTypeTechniquePassStatesCullFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="BACK", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesDepthFuncRows(Rows):
@@ -2543,7 +2695,9 @@ class ProfileGlslTypeTechniquePassStatesDepthFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesFogCoordSrcRows(Rows):
@@ -2551,7 +2705,9 @@ class ProfileGlslTypeTechniquePassStatesFogCoordSrcRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FOG_COORDINATE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FOG_COORDINATE", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesFogModeRows(Rows):
@@ -2559,7 +2715,9 @@ class ProfileGlslTypeTechniquePassStatesFogModeRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="EXP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="EXP", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesFrontFaceRows(Rows):
@@ -2567,7 +2725,9 @@ class ProfileGlslTypeTechniquePassStatesFrontFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="CCW")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="CCW", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesLightModelColorControlRows(Rows):
@@ -2575,7 +2735,9 @@ class ProfileGlslTypeTechniquePassStatesLightModelColorControlRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="SINGLE_COLOR")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="SINGLE_COLOR", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesLogicOpRows(Rows):
@@ -2583,7 +2745,9 @@ class ProfileGlslTypeTechniquePassStatesLogicOpRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="COPY")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="COPY", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesPolygonModeFaceRows(Rows):
@@ -2591,7 +2755,9 @@ class ProfileGlslTypeTechniquePassStatesPolygonModeFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesPolygonModeModeRows(Rows):
@@ -2599,7 +2765,9 @@ class ProfileGlslTypeTechniquePassStatesPolygonModeModeRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FILL")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FILL", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesShadeModelRows(Rows):
@@ -2607,7 +2775,9 @@ class ProfileGlslTypeTechniquePassStatesShadeModelRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="SMOOTH")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="SMOOTH", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilFuncFuncRows(Rows):
@@ -2615,7 +2785,9 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateBackRows(Rows):
@@ -2623,7 +2795,9 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateBackRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateFrontRows(Rows):
@@ -2631,7 +2805,9 @@ class ProfileGlslTypeTechniquePassStatesStencilFuncSeparateFrontRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilMaskSeparateFaceRows(Rows):
@@ -2639,7 +2815,9 @@ class ProfileGlslTypeTechniquePassStatesStencilMaskSeparateFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilOpFailRows(Rows):
@@ -2647,7 +2825,9 @@ class ProfileGlslTypeTechniquePassStatesStencilOpFailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilOpSeparateFaceRows(Rows):
@@ -2655,7 +2835,9 @@ class ProfileGlslTypeTechniquePassStatesStencilOpSeparateFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilOpSeparateFailRows(Rows):
@@ -2663,7 +2845,9 @@ class ProfileGlslTypeTechniquePassStatesStencilOpSeparateFailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilOpSeparateZfailRows(Rows):
@@ -2671,7 +2855,9 @@ class ProfileGlslTypeTechniquePassStatesStencilOpSeparateZfailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilOpSeparateZpassRows(Rows):
@@ -2679,7 +2865,9 @@ class ProfileGlslTypeTechniquePassStatesStencilOpSeparateZpassRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilOpZfailRows(Rows):
@@ -2687,7 +2875,9 @@ class ProfileGlslTypeTechniquePassStatesStencilOpZfailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class ProfileGlslTypeTechniquePassStatesStencilOpZpassRows(Rows):
@@ -2695,7 +2885,9 @@ class ProfileGlslTypeTechniquePassStatesStencilOpZpassRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class CgPassTypeStatesAlphaFuncRows(Rows):

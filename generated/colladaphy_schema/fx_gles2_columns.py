@@ -42,14 +42,14 @@ class Gles2NewparamTypeArrayEnumValueRows(Rows):
     """Rows of enum in Gles2NewparamTypeArray."""
 
     __slots__ = ()
-    value: Column[list[str]] = Column("", "text", "name")
+    value: Column[list[str]] = Column("", "text", "name", restriction="other")
 
 
 class Gles2ProgramTypeBindUniformArrayEnumValueRows(Rows):
     """Rows of enum in Gles2ProgramTypeBindUniformArray."""
 
     __slots__ = ()
-    value: Column[list[str]] = Column("", "text", "name")
+    value: Column[list[str]] = Column("", "text", "name", restriction="other")
 
 
 class Gles2ShaderTypeSourcesInlineValueRows(Rows):
@@ -63,14 +63,14 @@ class Gles2NewparamTypeUsertypeSetparamEnumValueRows(Rows):
     """Rows of enum in Gles2NewparamTypeUsertypeSetparam."""
 
     __slots__ = ()
-    value: Column[list[str]] = Column("", "text", "name")
+    value: Column[list[str]] = Column("", "text", "name", restriction="other")
 
 
 class Gles2ProgramTypeBindUniformUsertypeSetparamEnumValueRows(Rows):
     """Rows of enum in Gles2ProgramTypeBindUniformUsertypeSetparam."""
 
     __slots__ = ()
-    value: Column[list[str]] = Column("", "text", "name")
+    value: Column[list[str]] = Column("", "text", "name", restriction="other")
 
 
 class Bvec2Rows(Rows):
@@ -309,7 +309,9 @@ class Gles2PassTypeStatesStencilFuncMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilFuncRefRows(Rows):
@@ -317,7 +319,9 @@ class Gles2PassTypeStatesStencilFuncRefRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=0)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=0, restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilFuncSeparateMaskRows(Rows):
@@ -325,7 +329,9 @@ class Gles2PassTypeStatesStencilFuncSeparateMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilFuncSeparateRefRows(Rows):
@@ -333,7 +339,9 @@ class Gles2PassTypeStatesStencilFuncSeparateRefRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=0)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=0, restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilMaskRows(Rows):
@@ -349,7 +357,9 @@ class Gles2PassTypeStatesStencilMaskSeparateMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilTestEnableRows(Rows):
@@ -456,7 +466,7 @@ class Gles2NewparamTypeArrayRows(Rows):
     """Rows of the type gles2_newparam_type_array."""
 
     __slots__ = ()
-    length: Column[Integers] = Column("length", "attribute", "integer")
+    length: Column[Integers] = Column("length", "attribute", "integer", restriction="other")
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
         "materials_columns:BoolRows",
@@ -635,7 +645,9 @@ class Gles2PassTypeStatesBlendEquationRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FUNC_ADD")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FUNC_ADD", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesBlendEquationSeparateAlphaRows(Rows):
@@ -643,7 +655,9 @@ class Gles2PassTypeStatesBlendEquationSeparateAlphaRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FUNC_ADD")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FUNC_ADD", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesBlendEquationSeparateRgbRows(Rows):
@@ -651,7 +665,9 @@ class Gles2PassTypeStatesBlendEquationSeparateRgbRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FUNC_ADD")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FUNC_ADD", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesBlendFuncDestRows(Rows):
@@ -659,7 +675,9 @@ class Gles2PassTypeStatesBlendFuncDestRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesBlendFuncSeparateDestAlphaRows(Rows):
@@ -667,7 +685,9 @@ class Gles2PassTypeStatesBlendFuncSeparateDestAlphaRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesBlendFuncSeparateDestRgbRows(Rows):
@@ -675,7 +695,9 @@ class Gles2PassTypeStatesBlendFuncSeparateDestRgbRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesBlendFuncSeparateSrcAlphaRows(Rows):
@@ -683,7 +705,9 @@ class Gles2PassTypeStatesBlendFuncSeparateSrcAlphaRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesBlendFuncSeparateSrcRgbRows(Rows):
@@ -691,7 +715,9 @@ class Gles2PassTypeStatesBlendFuncSeparateSrcRgbRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesBlendFuncSrcRows(Rows):
@@ -699,7 +725,9 @@ class Gles2PassTypeStatesBlendFuncSrcRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesCullFaceRows(Rows):
@@ -707,7 +735,9 @@ class Gles2PassTypeStatesCullFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="BACK", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesDepthFuncRows(Rows):
@@ -715,7 +745,9 @@ class Gles2PassTypeStatesDepthFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesFrontFaceRows(Rows):
@@ -723,7 +755,9 @@ class Gles2PassTypeStatesFrontFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="CCW")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="CCW", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesSampleCoverageRows(Rows):
@@ -745,7 +779,9 @@ class Gles2PassTypeStatesStencilFuncFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilFuncSeparateBackRows(Rows):
@@ -753,7 +789,9 @@ class Gles2PassTypeStatesStencilFuncSeparateBackRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilFuncSeparateFrontRows(Rows):
@@ -761,7 +799,9 @@ class Gles2PassTypeStatesStencilFuncSeparateFrontRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilMaskSeparateFaceRows(Rows):
@@ -769,7 +809,9 @@ class Gles2PassTypeStatesStencilMaskSeparateFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilOpFailRows(Rows):
@@ -777,7 +819,9 @@ class Gles2PassTypeStatesStencilOpFailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilOpSeparateFaceRows(Rows):
@@ -785,7 +829,9 @@ class Gles2PassTypeStatesStencilOpSeparateFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="FRONT_AND_BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="FRONT_AND_BACK", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilOpSeparateFailRows(Rows):
@@ -793,7 +839,9 @@ class Gles2PassTypeStatesStencilOpSeparateFailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilOpSeparateZfailRows(Rows):
@@ -801,7 +849,9 @@ class Gles2PassTypeStatesStencilOpSeparateZfailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilOpSeparateZpassRows(Rows):
@@ -809,7 +859,9 @@ class Gles2PassTypeStatesStencilOpSeparateZpassRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilOpZfailRows(Rows):
@@ -817,7 +869,9 @@ class Gles2PassTypeStatesStencilOpZfailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class Gles2PassTypeStatesStencilOpZpassRows(Rows):
@@ -825,14 +879,16 @@ class Gles2PassTypeStatesStencilOpZpassRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "token", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class Gles2ProgramTypeBindUniformArrayRows(Rows):
     """Rows of the type gles2_program_type_bind_uniform_array."""
 
     __slots__ = ()
-    length: Column[Integers] = Column("length", "attribute", "integer")
+    length: Column[Integers] = Column("length", "attribute", "integer", restriction="other")
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
         "materials_columns:BoolRows",
@@ -1000,7 +1056,11 @@ class Gles2NewparamTypeRows(Rows):
         "{http://www.collada.org/2008/03/COLLADASchema}semantic", "element", "name", optional=True
     )
     modifier: Column[list[str | None]] = Column(
-        "{http://www.collada.org/2008/03/COLLADASchema}modifier", "element", "name", optional=True
+        "{http://www.collada.org/2008/03/COLLADASchema}modifier",
+        "element",
+        "name",
+        optional=True,
+        restriction="other",
     )
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -1098,6 +1158,7 @@ class Gles2NewparamTypeRows(Rows):
         "name",
         group=4,
         optional=True,
+        restriction="other",
     )
     sampler2D: Child[FxSampler2DTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}sampler2D",
@@ -1527,6 +1588,7 @@ class Gles2ProgramTypeBindUniformRows(Rows):
         "name",
         group=1,
         optional=True,
+        restriction="other",
     )
     sampler2D: Child[FxSampler2DTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}sampler2D",
@@ -1709,7 +1771,7 @@ class Gles2ShaderTypeRows(Rows):
     """Rows of the type gles2_shader_type."""
 
     __slots__ = ()
-    stage: Column[list[str]] = Column("stage", "attribute", "name")
+    stage: Column[list[str]] = Column("stage", "attribute", "name", restriction="other")
     sources: Child[Gles2ShaderTypeSourcesRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}sources",
         "fx_gles2_columns:Gles2ShaderTypeSourcesRows",
@@ -1966,7 +2028,11 @@ class ProfileGles2TypeNewparamRows(Rows):
         "{http://www.collada.org/2008/03/COLLADASchema}semantic", "element", "name", optional=True
     )
     modifier: Column[list[str | None]] = Column(
-        "{http://www.collada.org/2008/03/COLLADASchema}modifier", "element", "name", optional=True
+        "{http://www.collada.org/2008/03/COLLADASchema}modifier",
+        "element",
+        "name",
+        optional=True,
+        restriction="other",
     )
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -2064,6 +2130,7 @@ class ProfileGles2TypeNewparamRows(Rows):
         "name",
         group=4,
         optional=True,
+        restriction="other",
     )
     sampler2D: Child[FxSampler2DTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}sampler2D",

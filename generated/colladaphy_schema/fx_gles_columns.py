@@ -104,7 +104,7 @@ class ProfileGlesTypeTechniquePassStatesAlphaFuncValueRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
+    value: Column[Floats] = Column("value", "attribute", "float", default=0.0, restriction="other")
 
 
 class ProfileGlesTypeTechniquePassStatesAlphaTestEnableRows(Rows):
@@ -127,7 +127,7 @@ class ProfileGlesTypeTechniquePassStatesClipPlaneRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_clip_plane."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Masked[Bools]] = Column(
         "value", "attribute", "boolean", optional=True, tokens=True, width=4
@@ -138,7 +138,9 @@ class ProfileGlesTypeTechniquePassStatesClipPlaneEnableRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_clip_plane_enable."""
 
     __slots__ = ()
-    index: Column[Masked[Integers]] = Column("index", "attribute", "integer", optional=True)
+    index: Column[Masked[Integers]] = Column(
+        "index", "attribute", "integer", optional=True, restriction="other"
+    )
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -275,7 +277,7 @@ class ProfileGlesTypeTechniquePassStatesLightAmbientRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_ambient."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -296,7 +298,7 @@ class ProfileGlesTypeTechniquePassStatesLightConstantAttenuationRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_constant_attenuation."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=1.0)
 
@@ -305,7 +307,7 @@ class ProfileGlesTypeTechniquePassStatesLightDiffuseRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_diffuse."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -326,7 +328,7 @@ class ProfileGlesTypeTechniquePassStatesLightEnableRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_enable."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Bools] = Column("value", "attribute", "boolean", default=False)
 
@@ -335,7 +337,7 @@ class ProfileGlesTypeTechniquePassStatesLightLinearAttenuationRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_linear_attenuation."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=1.0)
 
@@ -372,7 +374,7 @@ class ProfileGlesTypeTechniquePassStatesLightPositionRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_position."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -393,7 +395,7 @@ class ProfileGlesTypeTechniquePassStatesLightQuadraticAttenuationRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_quadratic_attenuation."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=1.0)
 
@@ -402,7 +404,7 @@ class ProfileGlesTypeTechniquePassStatesLightSpecularRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_specular."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -423,7 +425,7 @@ class ProfileGlesTypeTechniquePassStatesLightSpotCutoffRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_spot_cutoff."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=180.0)
 
@@ -432,7 +434,7 @@ class ProfileGlesTypeTechniquePassStatesLightSpotDirectionRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_spot_direction."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column(
         "value",
@@ -452,7 +454,7 @@ class ProfileGlesTypeTechniquePassStatesLightSpotExponentRows(Rows):
     """Rows of the type profile_gles_type_technique_pass_states_light_spot_exponent."""
 
     __slots__ = ()
-    index: Column[Integers] = Column("index", "attribute", "integer")
+    index: Column[Integers] = Column("index", "attribute", "integer", restriction="other")
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
     value: Column[Floats] = Column("value", "attribute", "float", default=0.0)
 
@@ -789,7 +791,9 @@ class ProfileGlesTypeTechniquePassStatesStencilFuncMaskRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=255)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=255, restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesStencilFuncRefRows(Rows):
@@ -797,7 +801,9 @@ class ProfileGlesTypeTechniquePassStatesStencilFuncRefRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[Integers] = Column("value", "attribute", "integer", default=0)
+    value: Column[Integers] = Column(
+        "value", "attribute", "integer", default=0, restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesStencilMaskRows(Rows):
@@ -836,6 +842,7 @@ class GlesSamplerTypeRows(Rows):
         "name",
         empty="REPEAT",
         optional=True,
+        restriction="other",
     )
     wrap_t: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}wrap_t",
@@ -843,6 +850,7 @@ class GlesSamplerTypeRows(Rows):
         "name",
         empty="REPEAT",
         optional=True,
+        restriction="other",
     )
     minfilter: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}minfilter",
@@ -850,6 +858,7 @@ class GlesSamplerTypeRows(Rows):
         "name",
         empty="LINEAR",
         optional=True,
+        restriction="other",
     )
     magfilter: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}magfilter",
@@ -857,6 +866,7 @@ class GlesSamplerTypeRows(Rows):
         "name",
         empty="LINEAR",
         optional=True,
+        restriction="other",
     )
     mipfilter: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}mipfilter",
@@ -864,6 +874,7 @@ class GlesSamplerTypeRows(Rows):
         "name",
         empty="NEAREST",
         optional=True,
+        restriction="other",
     )
     mip_max_level: Column[Masked[Integers]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}mip_max_level",
@@ -871,6 +882,7 @@ class GlesSamplerTypeRows(Rows):
         "integer",
         empty="255",
         optional=True,
+        restriction="other",
     )
     mip_bias: Column[Masked[Floats]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}mip_bias",
@@ -890,8 +902,12 @@ class GlesTexcombinerArgumentAlphaTypeRows(Rows):
     """Rows of the type gles_texcombiner_argument_alpha_type."""
 
     __slots__ = ()
-    source: Column[list[str | None]] = Column("source", "attribute", "name", optional=True)
-    operand: Column[list[str]] = Column("operand", "attribute", "name", default="SRC_ALPHA")
+    source: Column[list[str | None]] = Column(
+        "source", "attribute", "name", optional=True, restriction="other"
+    )
+    operand: Column[list[str]] = Column(
+        "operand", "attribute", "name", default="SRC_ALPHA", restriction="other"
+    )
     sampler: Column[list[str | None]] = Column("sampler", "attribute", "name", optional=True)
 
 
@@ -899,8 +915,12 @@ class GlesTexcombinerArgumentRgbTypeRows(Rows):
     """Rows of the type gles_texcombiner_argument_rgb_type."""
 
     __slots__ = ()
-    source: Column[list[str | None]] = Column("source", "attribute", "name", optional=True)
-    operand: Column[list[str]] = Column("operand", "attribute", "name", default="SRC_COLOR")
+    source: Column[list[str | None]] = Column(
+        "source", "attribute", "name", optional=True, restriction="other"
+    )
+    operand: Column[list[str]] = Column(
+        "operand", "attribute", "name", default="SRC_COLOR", restriction="other"
+    )
     sampler: Column[list[str | None]] = Column("sampler", "attribute", "name", optional=True)
 
 
@@ -908,7 +928,9 @@ class GlesTexenvCommandTypeRows(Rows):
     """Rows of the type gles_texenv_command_type."""
 
     __slots__ = ()
-    operator: Column[list[str | None]] = Column("operator", "attribute", "name", optional=True)
+    operator: Column[list[str | None]] = Column(
+        "operator", "attribute", "name", optional=True, restriction="other"
+    )
     sampler: Column[list[str | None]] = Column("sampler", "attribute", "name", optional=True)
     constant: Child[GlesTextureConstantTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}constant",
@@ -961,7 +983,9 @@ class ProfileGlesTypeTechniquePassStatesAlphaFuncFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesBlendFuncDestRows(Rows):
@@ -969,7 +993,9 @@ class ProfileGlesTypeTechniquePassStatesBlendFuncDestRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ZERO")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ZERO", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesBlendFuncSrcRows(Rows):
@@ -977,7 +1003,9 @@ class ProfileGlesTypeTechniquePassStatesBlendFuncSrcRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ONE")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ONE", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesCullFaceRows(Rows):
@@ -985,7 +1013,9 @@ class ProfileGlesTypeTechniquePassStatesCullFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="BACK")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="BACK", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesDepthFuncRows(Rows):
@@ -993,7 +1023,9 @@ class ProfileGlesTypeTechniquePassStatesDepthFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesFogModeRows(Rows):
@@ -1001,7 +1033,9 @@ class ProfileGlesTypeTechniquePassStatesFogModeRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="EXP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="EXP", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesFrontFaceRows(Rows):
@@ -1009,7 +1043,9 @@ class ProfileGlesTypeTechniquePassStatesFrontFaceRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="CCW")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="CCW", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesLogicOpRows(Rows):
@@ -1017,7 +1053,9 @@ class ProfileGlesTypeTechniquePassStatesLogicOpRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="COPY")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="COPY", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesShadeModelRows(Rows):
@@ -1025,7 +1063,9 @@ class ProfileGlesTypeTechniquePassStatesShadeModelRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="SMOOTH")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="SMOOTH", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesStencilFuncFuncRows(Rows):
@@ -1033,7 +1073,9 @@ class ProfileGlesTypeTechniquePassStatesStencilFuncFuncRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="ALWAYS")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="ALWAYS", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesStencilOpFailRows(Rows):
@@ -1041,7 +1083,9 @@ class ProfileGlesTypeTechniquePassStatesStencilOpFailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesStencilOpZfailRows(Rows):
@@ -1049,7 +1093,9 @@ class ProfileGlesTypeTechniquePassStatesStencilOpZfailRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class ProfileGlesTypeTechniquePassStatesStencilOpZpassRows(Rows):
@@ -1057,7 +1103,9 @@ class ProfileGlesTypeTechniquePassStatesStencilOpZpassRows(Rows):
 
     __slots__ = ()
     param: Column[list[str | None]] = Column("param", "attribute", "name", optional=True)
-    value: Column[list[str]] = Column("value", "attribute", "name", default="KEEP")
+    value: Column[list[str]] = Column(
+        "value", "attribute", "name", default="KEEP", restriction="other"
+    )
 
 
 class GlesNewparamTypeRows(Rows):
@@ -1074,7 +1122,11 @@ class GlesNewparamTypeRows(Rows):
         "{http://www.collada.org/2008/03/COLLADASchema}semantic", "element", "name", optional=True
     )
     modifier: Column[list[str | None]] = Column(
-        "{http://www.collada.org/2008/03/COLLADASchema}modifier", "element", "name", optional=True
+        "{http://www.collada.org/2008/03/COLLADASchema}modifier",
+        "element",
+        "name",
+        optional=True,
+        restriction="other",
     )
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -1256,6 +1308,7 @@ class GlesNewparamTypeRows(Rows):
         "name",
         group=4,
         optional=True,
+        restriction="other",
     )
 
 
@@ -1263,7 +1316,9 @@ class GlesTexcombinerCommandAlphaTypeRows(Rows):
     """Rows of the type gles_texcombiner_command_alpha_type."""
 
     __slots__ = ()
-    operator: Column[list[str | None]] = Column("operator", "attribute", "name", optional=True)
+    operator: Column[list[str | None]] = Column(
+        "operator", "attribute", "name", optional=True, restriction="other"
+    )
     scale: Column[Masked[Floats]] = Column("scale", "attribute", "float", optional=True)
     argument: Child[GlesTexcombinerArgumentAlphaTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}argument",
@@ -1276,7 +1331,9 @@ class GlesTexcombinerCommandRgbTypeRows(Rows):
     """Rows of the type gles_texcombiner_command_rgb_type."""
 
     __slots__ = ()
-    operator: Column[list[str | None]] = Column("operator", "attribute", "name", optional=True)
+    operator: Column[list[str | None]] = Column(
+        "operator", "attribute", "name", optional=True, restriction="other"
+    )
     scale: Column[Masked[Floats]] = Column("scale", "attribute", "float", optional=True)
     argument: Child[GlesTexcombinerArgumentRgbTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}argument",

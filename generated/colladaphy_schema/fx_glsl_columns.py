@@ -161,14 +161,14 @@ class GlslArrayTypeEnumValueRows(Rows):
     """Rows of enum in GlslArrayType."""
 
     __slots__ = ()
-    value: Column[list[str]] = Column("", "text", "name")
+    value: Column[list[str]] = Column("", "text", "name", restriction="other")
 
 
 class GlslArrayTypeRows(Rows):
     """Rows of the type glsl_array_type."""
 
     __slots__ = ()
-    length: Column[Integers] = Column("length", "attribute", "integer")
+    length: Column[Integers] = Column("length", "attribute", "integer", restriction="other")
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
         "materials_columns:BoolRows",
@@ -1002,7 +1002,11 @@ class GlslNewparamTypeRows(Rows):
         "{http://www.collada.org/2008/03/COLLADASchema}semantic", "element", "name", optional=True
     )
     modifier: Column[list[str | None]] = Column(
-        "{http://www.collada.org/2008/03/COLLADASchema}modifier", "element", "name", optional=True
+        "{http://www.collada.org/2008/03/COLLADASchema}modifier",
+        "element",
+        "name",
+        optional=True,
+        restriction="other",
     )
     bool: Child[BoolRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -1136,6 +1140,7 @@ class GlslNewparamTypeRows(Rows):
         "name",
         group=4,
         optional=True,
+        restriction="other",
     )
     array: Child[GlslArrayTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}array",
@@ -1288,6 +1293,7 @@ class GlslProgramTypeBindUniformRows(Rows):
         "name",
         group=1,
         optional=True,
+        restriction="other",
     )
     array: Child[GlslArrayTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}array",
@@ -1301,7 +1307,7 @@ class GlslShaderTypeRows(Rows):
     """Rows of the type glsl_shader_type."""
 
     __slots__ = ()
-    stage: Column[list[str]] = Column("stage", "attribute", "name")
+    stage: Column[list[str]] = Column("stage", "attribute", "name", restriction="other")
     sources: Child[FxSourcesTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}sources",
         "fx_common_columns:FxSourcesTypeRows",

@@ -124,7 +124,7 @@ class InstanceMaterialTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    target: Column[list[str]] = Column("target", "attribute", "token")
+    target: Column[list[str]] = Column("target", "attribute", "token", restriction="anyURI")
     symbol: Column[list[str]] = Column("symbol", "attribute", "name")
     bind: Child[InstanceMaterialTypeBindRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bind",
@@ -455,7 +455,7 @@ class ConvexMeshTypeRows(Rows):
 
     __slots__ = ()
     convex_hull_of: Column[list[str | None]] = Column(
-        "convex_hull_of", "attribute", "token", optional=True
+        "convex_hull_of", "attribute", "token", optional=True, restriction="anyURI"
     )
     source: Child[SourceTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}source",
@@ -584,7 +584,7 @@ class InstanceGeometryTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
     bind_material: Child[BindMaterialTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bind_material",
         "geometry_columns:BindMaterialTypeRows",

@@ -43,7 +43,7 @@ class ImageTypeCreate2DArrayRows(Rows):
     """Rows of the type image_type_create_2d_array."""
 
     __slots__ = ()
-    length: Column[Integers] = Column("length", "attribute", "integer")
+    length: Column[Integers] = Column("length", "attribute", "integer", restriction="other")
 
 
 class ImageTypeCreate2DSizeExactRows(Rows):
@@ -109,6 +109,7 @@ class ImageSourceTypeRows(Rows):
         "token",
         group=1,
         optional=True,
+        restriction="anyURI",
     )
     hex: Child[ImageSourceTypeHexRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}hex",
@@ -122,9 +123,11 @@ class ImageTypeCreate2DFormatHintRows(Rows):
     """Rows of the type image_type_create_2d_format_hint."""
 
     __slots__ = ()
-    channels: Column[list[str]] = Column("channels", "attribute", "name")
-    range: Column[list[str]] = Column("range", "attribute", "name")
-    precision: Column[list[str]] = Column("precision", "attribute", "name", default="DEFAULT")
+    channels: Column[list[str]] = Column("channels", "attribute", "name", restriction="other")
+    range: Column[list[str]] = Column("range", "attribute", "name", restriction="other")
+    precision: Column[list[str]] = Column(
+        "precision", "attribute", "name", default="DEFAULT", restriction="other"
+    )
     space: Column[list[str | None]] = Column("space", "attribute", "token", optional=True)
 
 
@@ -132,9 +135,11 @@ class ImageTypeCreate3DFormatHintRows(Rows):
     """Rows of the type image_type_create_3d_format_hint."""
 
     __slots__ = ()
-    channels: Column[list[str]] = Column("channels", "attribute", "name")
-    range: Column[list[str]] = Column("range", "attribute", "name")
-    precision: Column[list[str]] = Column("precision", "attribute", "name", default="DEFAULT")
+    channels: Column[list[str]] = Column("channels", "attribute", "name", restriction="other")
+    range: Column[list[str]] = Column("range", "attribute", "name", restriction="other")
+    precision: Column[list[str]] = Column(
+        "precision", "attribute", "name", default="DEFAULT", restriction="other"
+    )
     space: Column[list[str | None]] = Column("space", "attribute", "token", optional=True)
 
 
@@ -142,9 +147,11 @@ class ImageTypeCreateCubeFormatHintRows(Rows):
     """Rows of the type image_type_create_cube_format_hint."""
 
     __slots__ = ()
-    channels: Column[list[str]] = Column("channels", "attribute", "name")
-    range: Column[list[str]] = Column("range", "attribute", "name")
-    precision: Column[list[str]] = Column("precision", "attribute", "name", default="DEFAULT")
+    channels: Column[list[str]] = Column("channels", "attribute", "name", restriction="other")
+    range: Column[list[str]] = Column("range", "attribute", "name", restriction="other")
+    precision: Column[list[str]] = Column(
+        "precision", "attribute", "name", default="DEFAULT", restriction="other"
+    )
     space: Column[list[str | None]] = Column("space", "attribute", "token", optional=True)
 
 
@@ -154,7 +161,7 @@ class InstanceImageTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
 
 
 class ImageTypeCreate2DFormatRows(Rows):
@@ -182,6 +189,7 @@ class ImageTypeCreate2DInitFromRows(Rows):
         "token",
         group=1,
         optional=True,
+        restriction="anyURI",
     )
     hex: Child[ImageSourceTypeHexRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}hex",
@@ -217,6 +225,7 @@ class ImageTypeCreate3DInitFromRows(Rows):
         "token",
         group=1,
         optional=True,
+        restriction="anyURI",
     )
     hex: Child[ImageSourceTypeHexRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}hex",
@@ -243,7 +252,7 @@ class ImageTypeCreateCubeInitFromRows(Rows):
     """Rows of the type image_type_create_cube_init_from."""
 
     __slots__ = ()
-    face: Column[list[str]] = Column("face", "attribute", "name")
+    face: Column[list[str]] = Column("face", "attribute", "name", restriction="other")
     mip_index: Column[Integers] = Column("mip_index", "attribute", "integer")
     array_index: Column[Integers] = Column("array_index", "attribute", "integer", default=0)
     ref: Column[list[str | None]] = Column(
@@ -252,6 +261,7 @@ class ImageTypeCreateCubeInitFromRows(Rows):
         "token",
         group=1,
         optional=True,
+        restriction="anyURI",
     )
     hex: Child[ImageSourceTypeHexRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}hex",
@@ -272,6 +282,7 @@ class ImageTypeInitFromRows(Rows):
         "token",
         group=1,
         optional=True,
+        restriction="anyURI",
     )
     hex: Child[ImageSourceTypeHexRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}hex",

@@ -85,6 +85,7 @@ class KinematicsSetparamTypeRows(Rows):
         "string",
         group=1,
         optional=True,
+        restriction="(([\\i-[:]][\\c-[:]]*)|.)(/[\\i-[:\\.]][\\c-[:]]*)+((\\.[\\i-[:]][\\c-[:]]*)|(\\([0-9]+\\)){1,2})?",
     )
     bool: Column[Masked[Bools]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -127,6 +128,7 @@ class BindKinematicsModelTypeRows(Rows):
         "string",
         group=1,
         optional=True,
+        restriction="(([\\i-[:]][\\c-[:]]*)|.)(/[\\i-[:\\.]][\\c-[:]]*)+((\\.[\\i-[:]][\\c-[:]]*)|(\\([0-9]+\\)){1,2})?",
     )
     param: Child[CommonParamTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}param",
@@ -174,6 +176,7 @@ class KinematicsBindTypeRows(Rows):
         "string",
         group=1,
         optional=True,
+        restriction="(([\\i-[:]][\\c-[:]]*)|.)(/[\\i-[:\\.]][\\c-[:]]*)+((\\.[\\i-[:]][\\c-[:]]*)|(\\([0-9]+\\)){1,2})?",
     )
 
 
@@ -217,7 +220,7 @@ class InstanceArticulatedSystemTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
     bind: Child[KinematicsBindTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bind",
         "kinematics_columns:KinematicsBindTypeRows",
@@ -246,7 +249,7 @@ class InstanceKinematicsModelTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
     bind: Child[KinematicsBindTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}bind",
         "kinematics_columns:KinematicsBindTypeRows",
@@ -275,7 +278,7 @@ class InstanceKinematicsSceneTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
     asset: Child[AssetTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}asset",
         "core_columns:AssetTypeRows",

@@ -57,6 +57,7 @@ class KinematicsNewparamTypeRows(Rows):
         "string",
         group=1,
         optional=True,
+        restriction="(([\\i-[:]][\\c-[:]]*)|.)(/[\\i-[:\\.]][\\c-[:]]*)+((\\.[\\i-[:]][\\c-[:]]*)|(\\([0-9]+\\)){1,2})?",
     )
     bool: Column[Masked[Bools]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}bool",
@@ -128,7 +129,7 @@ class InstanceJointTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
 
 
 class JointLimitsTypeRows(Rows):

@@ -206,6 +206,7 @@ class InstanceEffectTypeSetparamSamplerStatesRows(Rows):
         "name",
         empty="WRAP",
         optional=True,
+        restriction="other",
     )
     wrap_t: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}wrap_t",
@@ -213,6 +214,7 @@ class InstanceEffectTypeSetparamSamplerStatesRows(Rows):
         "name",
         empty="WRAP",
         optional=True,
+        restriction="other",
     )
     wrap_p: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}wrap_p",
@@ -220,6 +222,7 @@ class InstanceEffectTypeSetparamSamplerStatesRows(Rows):
         "name",
         empty="WRAP",
         optional=True,
+        restriction="other",
     )
     minfilter: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}minfilter",
@@ -227,6 +230,7 @@ class InstanceEffectTypeSetparamSamplerStatesRows(Rows):
         "name",
         empty="LINEAR",
         optional=True,
+        restriction="other",
     )
     magfilter: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}magfilter",
@@ -234,6 +238,7 @@ class InstanceEffectTypeSetparamSamplerStatesRows(Rows):
         "name",
         empty="LINEAR",
         optional=True,
+        restriction="other",
     )
     mipfilter: Column[list[str | None]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}mipfilter",
@@ -241,6 +246,7 @@ class InstanceEffectTypeSetparamSamplerStatesRows(Rows):
         "name",
         empty="LINEAR",
         optional=True,
+        restriction="other",
     )
     border_color: Column[Masked[Floats]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}border_color",
@@ -256,6 +262,7 @@ class InstanceEffectTypeSetparamSamplerStatesRows(Rows):
         "integer",
         empty="0",
         optional=True,
+        restriction="other",
     )
     mip_min_level: Column[Masked[Integers]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}mip_min_level",
@@ -263,6 +270,7 @@ class InstanceEffectTypeSetparamSamplerStatesRows(Rows):
         "integer",
         empty="0",
         optional=True,
+        restriction="other",
     )
     mip_bias: Column[Masked[Floats]] = Column(
         "{http://www.collada.org/2008/03/COLLADASchema}mip_bias",
@@ -461,7 +469,7 @@ class InstanceEffectTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
     technique_hint: Child[InstanceEffectTypeTechniqueHintRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}technique_hint",
         "materials_columns:InstanceEffectTypeTechniqueHintRows",

@@ -115,6 +115,7 @@ class CommonSidrefOrParamTypeRows(Rows):
         "string",
         group=1,
         optional=True,
+        restriction="(([\\i-[:]][\\c-[:]]*)|.)(/[\\i-[:\\.]][\\c-[:]]*)+((\\.[\\i-[:]][\\c-[:]]*)|(\\([0-9]+\\)){1,2})?",
     )
     param: Child[CommonParamTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}param",

@@ -139,8 +139,8 @@ class PairTypeRows(Rows):
     """Rows of the type pair_type."""
 
     __slots__ = ()
-    first: Column[list[str]] = Column("first", "attribute", "token")
-    second: Column[list[str]] = Column("second", "attribute", "token")
+    first: Column[list[str]] = Column("first", "attribute", "token", restriction="anyURI")
+    second: Column[list[str]] = Column("second", "attribute", "token", restriction="anyURI")
     restitution: Column[Masked[Floats]] = Column("restitution", "attribute", "float", optional=True)
     static_friction: Column[Masked[Floats]] = Column(
         "static_friction", "attribute", "float", optional=True
@@ -199,7 +199,9 @@ class JointTypeRows(Rows):
     """Rows of the type joint_type."""
 
     __slots__ = ()
-    kind: Column[list[str | None]] = Column("kind", "attribute", "name", optional=True)
+    kind: Column[list[str | None]] = Column(
+        "kind", "attribute", "name", optional=True, restriction="other"
+    )
     uid: Column[Masked[Integers]] = Column("uid", "attribute", "integer", optional=True)
     sid: Column[Masked[Integers]] = Column("sid", "attribute", "integer", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "string", optional=True)
@@ -369,7 +371,9 @@ class JointRows(Rows):
     """Rows of the element joint."""
 
     __slots__ = ()
-    kind: Column[list[str | None]] = Column("kind", "attribute", "name", optional=True)
+    kind: Column[list[str | None]] = Column(
+        "kind", "attribute", "name", optional=True, restriction="other"
+    )
     uid: Column[Masked[Integers]] = Column("uid", "attribute", "integer", optional=True)
     sid: Column[Masked[Integers]] = Column("sid", "attribute", "integer", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "string", optional=True)

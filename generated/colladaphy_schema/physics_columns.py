@@ -142,7 +142,7 @@ class InstanceForceFieldTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
 
 
 class InstancePhysicsMaterialTypeRows(Rows):
@@ -151,7 +151,7 @@ class InstancePhysicsMaterialTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
 
 
 class InstanceRigidConstraintTypeRows(Rows):
@@ -209,7 +209,9 @@ class RigidConstraintTypeAttachmentRows(Rows):
     """Rows of the type rigid_constraint_type_attachment."""
 
     __slots__ = ()
-    rigid_body: Column[list[str | None]] = Column("rigid_body", "attribute", "token", optional=True)
+    rigid_body: Column[list[str | None]] = Column(
+        "rigid_body", "attribute", "token", optional=True, restriction="anyURI"
+    )
     translate: Child[TranslateTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}translate",
         "core_columns:TranslateTypeRows",
@@ -233,7 +235,9 @@ class RigidConstraintTypeRefAttachmentRows(Rows):
     """Rows of the type rigid_constraint_type_ref_attachment."""
 
     __slots__ = ()
-    rigid_body: Column[list[str | None]] = Column("rigid_body", "attribute", "token", optional=True)
+    rigid_body: Column[list[str | None]] = Column(
+        "rigid_body", "attribute", "token", optional=True, restriction="anyURI"
+    )
     translate: Child[TranslateTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}translate",
         "core_columns:TranslateTypeRows",
@@ -785,7 +789,7 @@ class InstanceRigidBodyTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    target: Column[list[str]] = Column("target", "attribute", "token")
+    target: Column[list[str]] = Column("target", "attribute", "token", restriction="anyURI")
     body: Column[list[str]] = Column("body", "attribute", "name")
     technique_common: Child[InstanceRigidBodyTypeTechniqueCommonRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}technique_common",
@@ -832,8 +836,10 @@ class InstancePhysicsModelTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
-    parent: Column[list[str | None]] = Column("parent", "attribute", "token", optional=True)
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
+    parent: Column[list[str | None]] = Column(
+        "parent", "attribute", "token", optional=True, restriction="anyURI"
+    )
     instance_force_field: Child[InstanceForceFieldTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}instance_force_field",
         "physics_columns:InstanceForceFieldTypeRows",

@@ -29,7 +29,7 @@ class InstanceControllerTypeSkeletonValueRows(Rows):
     """Rows of skeleton in InstanceControllerType."""
 
     __slots__ = ()
-    value: Column[list[str]] = Column("", "text", "token")
+    value: Column[list[str]] = Column("", "text", "token", restriction="anyURI")
 
 
 class VisualSceneTypeEvaluateSceneRenderLayerValueRows(Rows):
@@ -109,7 +109,7 @@ class InstanceCameraTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
 
 
 class InstanceControllerTypeRows(Rows):
@@ -118,7 +118,7 @@ class InstanceControllerTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
     skeleton: Child[InstanceControllerTypeSkeletonValueRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}skeleton",
         "scene_columns:InstanceControllerTypeSkeletonValueRows",
@@ -142,7 +142,7 @@ class InstanceLightTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
 
 
 class InstanceNodeTypeRows(Rows):
@@ -151,8 +151,10 @@ class InstanceNodeTypeRows(Rows):
     __slots__ = ()
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
-    url: Column[list[str]] = Column("url", "attribute", "token")
-    proxy: Column[list[str | None]] = Column("proxy", "attribute", "token", optional=True)
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
+    proxy: Column[list[str | None]] = Column(
+        "proxy", "attribute", "token", optional=True, restriction="anyURI"
+    )
     extra: Child[ExtraTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}extra",
         "core_columns:ExtraTypeRows",
@@ -260,7 +262,7 @@ class VisualSceneTypeEvaluateSceneRenderInstanceMaterialRows(Rows):
     """Rows of the type visual_scene_type_evaluate_scene_render_instance_material."""
 
     __slots__ = ()
-    url: Column[list[str]] = Column("url", "attribute", "token")
+    url: Column[list[str]] = Column("url", "attribute", "token", restriction="anyURI")
     technique_override: Child[
         VisualSceneTypeEvaluateSceneRenderInstanceMaterialTechniqueOverrideRows
     ] = Child(
@@ -412,7 +414,9 @@ class NodeTypeRows(Rows):
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
     layer: Column[list[list[str]]] = Column("layer", "attribute", "name", default=(), tokens=True)
-    type: Column[list[str]] = Column("type", "attribute", "name", default="NODE")
+    type: Column[list[str]] = Column(
+        "type", "attribute", "name", default="NODE", restriction="other"
+    )
     asset: Child[AssetTypeRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}asset",
         "core_columns:AssetTypeRows",
@@ -498,7 +502,7 @@ class VisualSceneTypeEvaluateSceneRenderRows(Rows):
     sid: Column[list[str | None]] = Column("sid", "attribute", "name", optional=True)
     name: Column[list[str | None]] = Column("name", "attribute", "token", optional=True)
     camera_node: Column[list[str | None]] = Column(
-        "camera_node", "attribute", "token", optional=True
+        "camera_node", "attribute", "token", optional=True, restriction="anyURI"
     )
     layer: Child[VisualSceneTypeEvaluateSceneRenderLayerValueRows] = Child(
         "{http://www.collada.org/2008/03/COLLADASchema}layer",

@@ -181,6 +181,11 @@ class Area:
             options = [*options, "tokens=True"]
             if width(value) is not None:
                 options.append(f"width={width(value)}")
+        restriction = value.restriction
+        if value.lengths and width(value) is None:
+            restriction = "other"
+        if restriction:
+            options = [*options, f"restriction={restriction!r}"]
         arguments = ", ".join([repr(tag), repr(form), repr(kind), *options])
         return f"{name}: Column[{column_type(value, optional=optional)}] = Column({arguments})"
 

@@ -17,7 +17,9 @@ from xsdata.models.config import DocstringStyle, GeneratorConfig, StructureStyle
 from xsdata.models.xsd import Element, Schema
 
 from tools.bindings.common import PACKAGE
+from tools.bindings.locality import with_other_content
 from tools.bindings.model import DEFAULT_MARK
+from tools.bindings.modules import content_module
 from tools.bindings.plugin import BindingsGenerator
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -80,6 +82,8 @@ def generate(schema: Path, folder: Path) -> Path:
     finally:
         CodeWriter.register_generator(FORMAT, previous)
     package = folder / PACKAGE
+    content = content_module(with_other_content(schema))
+    (package / "content.py").write_text(content, encoding="utf-8")
     ruff = Path(sys.executable).with_name("ruff")
     command = [str(ruff if ruff.exists() else "ruff"), "--config"]
     for action in (["check", "--select", "I,F401", "--fix", "--quiet"], ["format", "--quiet"]):

@@ -33,6 +33,16 @@ KINDS = {
     DataType.BASE64_BINARY: "base64",
 }  # fmt: skip
 
+# Types that restrict the texts of their kind, as facets do.
+NARROW = {
+    DataType.SHORT, DataType.BYTE, DataType.POSITIVE_INTEGER, DataType.UNSIGNED_SHORT,
+    DataType.UNSIGNED_BYTE, DataType.LANGUAGE, DataType.IDREFS,
+}  # fmt: skip
+FACETS = (
+    "pattern", "min_inclusive", "max_inclusive", "min_exclusive", "max_exclusive",
+    "fraction_digits", "total_digits",
+)  # fmt: skip
+
 
 @dataclass
 class Value:
@@ -42,6 +52,7 @@ class Value:
     tokens: bool = False
     lengths: tuple[int | None, int | None] | None = None
     enumeration: Record | None = None
+    restriction: str = ""  # a pattern, anyURI, or "other" where its type restricts texts
 
 
 @dataclass
@@ -231,13 +242,20 @@ class Model:
         lengths = (low, high) if tokens and (low, high) != (None, None) else None
         datatype = kind.datatype
         if datatype is None:
-            return Value("enumeration", tokens, lengths, self.records[kind.qname])
+            return Value("enumeration", tokens, lengths, self.records[kind.qname], "other")
         if datatype not in KINDS:
             raise ValueError(f"{attr.name}: {datatype} is not supported")
         name = KINDS[datatype]
         if name == "string" and limits.white_space in ("collapse", "replace"):
             name = {"collapse": "token", "replace": "normalized"}[limits.white_space]
-        return Value(name, tokens, lengths)
+        restricted = datatype in NARROW or (not tokens and (low, high) != (None, None))
+        facets = [facet for facet in FACETS if getattr(limits, facet) is not None]
+        restriction = "other" if restricted or facets else ""
+        if facets == ["pattern"] and not restricted:
+            restriction = str(limits.pattern)
+        elif datatype == DataType.ANY_URI and not restriction:
+            restriction = "anyURI"
+        return Value(name, tokens, lengths, restriction=restriction)
 
 
 def _form(attr: Attr) -> str:

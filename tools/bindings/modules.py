@@ -96,6 +96,15 @@ def registry_module(records: list[Record], lazy: dict[str, dict[str, str]]) -> s
     return "\n".join([*lines, "}"]) + "\n"
 
 
+def content_module(names: list[str]) -> str:
+    """The table of elements whose content is not local (see `tools.bindings.locality`)."""
+    lines = [f'"""What the content of elements is like. {MARK}"""', ""]
+    lines += ["from __future__ import annotations", ""]
+    lines += ["# Elements in which the name of a child does not tell alone what may follow it."]
+    lines += ["NOT_LOCAL = frozenset({", *(f"    {name!r}," for name in names), "})"]
+    return "\n".join(lines) + "\n"
+
+
 def package_module(classes: dict[str, str]) -> str:
     """The package's `__init__`: every class by name, imported on first use."""
     lines = [

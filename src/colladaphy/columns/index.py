@@ -18,6 +18,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.closings import Closings, Tagged
 from colladaphy.columns.growing import Growing
 from colladaphy.columns.names import Names, NotPlain
 from colladaphy.columns.words import Words
@@ -37,8 +38,19 @@ _PLACES: Final = U(0x0001020304050607)
 class Index:
     """One row an element; `parent` is -1 for the root."""
 
-    def __init__(self, data: bytes | bytearray, start: int = 0, block: int = BLOCK) -> None:
-        """Index `data` from `start`, where the first tag or blanks before it are."""
+    def __init__(
+        self,
+        data: bytes | bytearray,
+        start: int = 0,
+        block: int = BLOCK,
+        *,
+        closings: Closings | None = None,
+    ) -> None:
+        """Index `data` from `start`, where the first tag or blanks before it are.
+
+        Documents that are not known to be well-formed are checked with `closings`.
+        """
+        self._closings = closings
         size = len(data)
         self.data = data
         self.bytes: Array = np.frombuffer(data, np.uint8)
@@ -68,6 +80,8 @@ class Index:
         self.name_end, self.attributed, self.quotes, self.quote_places = arrays[6:]
         """Of the elements with attributes: ends of names, their rows, counts of quotes; the
         places of all quotes."""
+        if closings is not None:
+            closings.check()
         ends = np.cumsum(self.quotes, dtype=np.int64)
         self.first_quote = (ends - self.quotes).astype(offset)
         self._by_code: dict[int, Array] = {}
@@ -166,15 +180,21 @@ class Index:
         level += np.int16(self._depth)
         level += empty.view(np.int8)
         parent = self._parents(level)
-        self._depth += int(running[-1]) if len(running) else 0
         # Where texts end: at the next tag, which for the last one is in the next block.
         text_end = np.append(lt[1:], end)[opening]
         np.copyto(text_end, stop + 1, where=empty)
         name_end = stop - empty
         attributed = np.flatnonzero(quotes)
-        name_end[attributed] = _name_ends(self.words, start[attributed])
+        words = self.words.at(start)
+        name_end[attributed] = _name_ends(self.words, start[attributed], words[attributed])
         _trim(part, start, name_end, quotes)
-        codes = self.names.codes(self.words, start, name_end - start)
+        codes = self.names.codes(self.words, start, name_end - start, words)
+        if self._closings is not None:
+            lengths = name_end - start
+            depths = running + np.int32(self._depth)
+            tags = Tagged(lt, gt, closing, depths, opening, words, lengths, codes, end)
+            self._closings.add(self.words, self.names, tags)
+        self._depth += int(running[-1]) if len(running) else 0
         quote_places = _quotes(part, places, left[opening[attributed]], quotes[attributed])
         rows = attributed + self._count
         self._count += len(opening)
@@ -208,14 +228,14 @@ class Index:
         return parent
 
 
-def _name_ends(words: Words, start: Array) -> Array:
-    """Where the first blank is behind each start, eight bytes at a time."""
+def _name_ends(words: Words, start: Array, first: Array) -> Array:
+    """Where the first blank is behind each start, eight bytes at a time; the `first` are given."""
     ends = np.empty(len(start), np.intp)
     todo = np.arange(len(start))
     shift = 0
     while len(todo):
         at = start[todo] + shift
-        word = words.at(at)
+        word = words.at(at) if shift else first
         # The top bits of bytes that are blanks or below; the lowest one set is exact.
         low = (word - _BEYOND_BLANK) & ~word & _TOPS
         hit = np.flatnonzero(low)

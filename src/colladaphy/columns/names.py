@@ -43,11 +43,14 @@ class Names:
         self.texts.append(b"")
         return len(self.texts) - 1
 
-    def codes(self, words: Words, start: Array, length: Array) -> Array:
-        """The codes (n,) of names that stand at `start` in the bytes."""
+    def codes(self, words: Words, start: Array, length: Array, first: Array | None = None) -> Array:
+        """The codes (n,) of names that stand at `start` in the bytes.
+
+        `first` are the words there, if they are known; they are overwritten.
+        """
         if not len(start):
             return np.zeros(0, np.int16)
-        first = words.at(start)
+        first = words.at(start) if first is None else first
         first &= LOW.take(length, mode="clip")
         last = np.zeros(len(start), U)
         long = np.flatnonzero(length > 8)

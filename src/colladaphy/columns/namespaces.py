@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from colladaphy.columns.index import Index
 from colladaphy.columns.names import NotPlain
+from colladaphy.columns.tags import Tags
 from colladaphy.columns.texts import Ranges, factors_of
 
 __all__ = ["codes_by_name"]
@@ -33,13 +34,15 @@ class _Declarations(NamedTuple):
     uris: list[bytes]
 
 
-def codes_by_name(index: Index) -> dict[str, tuple[int, ...]]:
+def codes_by_name(index: Index, tags: Tags | None = None) -> dict[str, tuple[int, ...]]:
     """The codes of the names of elements, by qualified name.
+
+    `tags` are those of the index, if they are known.
 
     Where a prefix stands for different namespaces in different places, the elements of it get
     codes of their own first.
     """
-    declared = _declarations(index)
+    declared = _declarations(index) if tags is None else _declared(tags)
     names: defaultdict[bytes, list[int]] = defaultdict(list)
     for code, name in enumerate(index.names.texts):
         names[name.rpartition(b":")[0]].append(code)
@@ -84,15 +87,26 @@ def _declarations(index: Index) -> _Declarations:
     names, values, rows = _attributes(index)
     if not len(rows):
         return _Declarations(rows, rows, [], [])
-    texts = _different(Ranges(index.words, names.starts, values.stops))
+    kinds, texts = _different(Ranges(index.words, names.starts, values.stops))
+    return _parted(rows, kinds, texts)
+
+
+def _declared(tags: Tags) -> _Declarations:
+    """The same from the tags."""
+    different, kinds = np.unique(tags.declared, return_inverse=True)
+    texts = [tags.declarations[code].strip()[:-1] for code in different.tolist()]
+    return _parted(tags.declaring, kinds, texts)
+
+
+def _parted(rows: Array, kinds: Array, texts: list[bytes]) -> _Declarations:
     prefixes, uris = [], []
-    for text in texts[1]:
+    for text in texts:
         name, _, uri = text.partition(b'="')
         if b"&" in uri:
             raise NotPlain("a reference in the name of a namespace")
         prefixes.append(name.partition(b":")[2])
         uris.append(uri)
-    return _Declarations(rows, texts[0], prefixes, uris)
+    return _Declarations(rows, kinds, prefixes, uris)
 
 
 def _different(ranges: Ranges) -> tuple[Array, list[bytes]]:

@@ -13,7 +13,7 @@ from typing import Final
 
 from lxml import etree
 
-__all__ = ["Tree", "plain", "serialised"]
+__all__ = ["Tree", "direct", "plain", "serialised"]
 
 Tree = etree._ElementTree | Callable[[], etree._ElementTree] | None
 """A parsed tree, or what makes one if it is needed; None: parse the bytes."""
@@ -32,10 +32,16 @@ def plain(data: bytes, tree: Tree = None) -> tuple[bytes | bytearray, int]:
     They are `data` itself or a copy of the same length where no more than comments and processing
     instructions had to be blanked out.
     """
+    taken = direct(data)
+    return taken if taken is not None else serialised(data, tree)
+
+
+def direct(data: bytes) -> tuple[bytes | bytearray, int] | None:
+    """The same without a tree; None where the bytes themselves are not plain."""
     taken = _taken(data)
     if taken is not None and b"'" in taken[0] and _SINGLE.search(taken[0], taken[1]):
-        taken = None
-    return taken if taken is not None else serialised(data, tree)
+        return None
+    return taken
 
 
 def serialised(data: bytes, tree: Tree = None) -> tuple[bytes | bytearray, int]:

@@ -13,11 +13,8 @@ from colladaphy.columns.index import BLOCK, Index, NotPlain
 from colladaphy.columns.namespaces import codes_by_name
 from colladaphy.columns.places import Place, Places
 from colladaphy.columns.plain import Tree, plain, serialised
-from colladaphy.columns.texts import (
-    Ranges,
-    factors_of,
-    strings_of,
-)
+from colladaphy.columns.tags import Tags
+from colladaphy.columns.texts import Ranges, factors_of, strings_of
 from colladaphy.columns.values import Spelling, column_of
 from colladaphy.columns.words import LOW
 from colladaphy_schema.rows import Child, Column, Rows
@@ -43,14 +40,25 @@ class Document:
     """
 
     def __init__(self, data: bytes | bytearray, start: int = 0, *, block: int = BLOCK) -> None:
-        self.index = Index(data, start, block)
-        self.places = Places(self.index, data)
+        self._take(Index(data, start, block), None)
+
+    def _take(self, index: Index, tags: Tags | None) -> None:
+        self.index = index
+        self.places = Places(index, index.data)
         """Where its elements stand in the source as it came."""
-        self._entities = b"&" in data
-        self._blanked = b"\0" in data
-        self._codes = codes_by_name(self.index)
+        self._entities = b"&" in index.data
+        self._blanked = b"\0" in index.data
+        self._codes = codes_by_name(index, tags)
         self._attribute_rows: Array | None = None
         self._names: dict[int, str] | None = None
+
+    @classmethod
+    def of_index(cls, index: Index, tags: Tags, data: bytes) -> Document:
+        """A valid document that is indexed as it is, but for comments that were blanked."""
+        made = cls.__new__(cls)
+        made._take(index, tags)
+        made.places = Places(index, data)
+        return made
 
     @classmethod
     def of(cls, data: bytes, tree: Tree = None, *, block: int = BLOCK) -> Document:

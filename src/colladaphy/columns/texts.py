@@ -25,6 +25,7 @@ __all__ = [
     "factors_of",
     "floats_of",
     "integers_of",
+    "plain_numbers_of",
     "strings_of",
     "words_of",
 ]
@@ -241,6 +242,9 @@ def _numbers(
 ) -> tuple[Array, Array | None]:
     if not len(ranges):
         return np.zeros(0, dtype), None
+    if dtype is np.float64 and (kept := ranges.all_words.kept(ranges.starts)) is not None:
+        found, every = kept
+        return found, None if every is None or bool(np.all(every == every[0])) else every
     if len(ranges) > 1 and ranges.all_equal():
         one, _ = _part(ranges.part(0, 1), dtype, parse, width)
         return np.tile(one, len(ranges)), None
@@ -276,6 +280,26 @@ def _part(ranges: Ranges, dtype: Any, parse: Any, width: int | None) -> tuple[Ar
         return np.array(flat, dtype=object), counts
 
 
+def plain_numbers_of(ranges: Ranges, width: int | None) -> tuple[Array, Array | None] | None:
+    """Lists of numbers, and how many each has; None where any is spelled unlike JSON's.
+
+    Where a `width` is given, None too if any list has another, and no numbers of them if not.
+    """
+    text = _json(ranges, 1 if width == 1 else None)
+    if text is None or b"u" in text[0] or b"l" in text[0]:  # true, false, null
+        return None
+    made = _parsed(text[0], "d")
+    if made is None:
+        return None
+    counts = text[1]
+    # More numbers than blanks tell of are parted by commas.
+    if len(made) != (len(ranges) if counts is None else int(counts.sum())):
+        return None
+    if width is not None and counts is not None and bool(np.any(counts != width)):
+        return None
+    return made, counts
+
+
 def _parsed(text: bytes, kind: str) -> Array | None:
     """The numbers of a JSON list; None where a number is not spelled as JSON has it."""
     try:
@@ -306,18 +330,27 @@ def _json(ranges: Ranges, width: int | None) -> tuple[bytes, Array | None] | Non
     words, lengths = made
     if not bool(np.all(lengths)):
         return None
+    counts = _blanks(words) + 1 if width is None else None
     letters = words.view(np.uint8)
-    counts = None
-    if width is None:
-        counts = np.count_nonzero(_IS_BLANK[letters], axis=1) + 1
     letters.reshape(-1)[np.arange(len(lengths)) * letters.shape[1] + lengths] = _COMMA
     text = letters.tobytes().translate(_TO_JSON).rstrip(b" ")
     return b"[%b]" % text[:-1], counts
 
 
+def _blanks(words: Array) -> Array:
+    """How many blanks are in each row (n,) of words (n, k)."""
+    # Bytes that are 0x20, or 9 to 13 (of which XML allows blanks only), have their top bit set.
+    low = words & _SEVENS
+    space = ((low ^ _SPACES) + _SEVENS) | words
+    line = ((low + _FROM_9) & ~(low + _FROM_14)) & ~words
+    found = np.bitwise_count((~space | line) & _TOPS)
+    return np.asarray(found.sum(axis=1, dtype=np.int64))
+
+
+_BYTES: Final = 0x0101010101010101
+_SEVENS, _TOPS, _SPACES = U(0x7F * _BYTES), U(0x80 * _BYTES), U(0x20 * _BYTES)
+_FROM_9, _FROM_14 = U((128 - 9) * _BYTES), U((128 - 14) * _BYTES)
 _COMMA: Final = 44
-_IS_BLANK: Final = np.zeros(256, np.bool_)
-_IS_BLANK[list(_BLANK_BYTES)] = True
 # What stands behind the texts, zeros, are the blanks of JSON.
 _TO_JSON: Final = bytes.maketrans(_BLANK_BYTES + b"\0", b",,,, ")
 

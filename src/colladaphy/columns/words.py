@@ -32,6 +32,22 @@ class Words:
         rest = np.zeros(32, np.uint8)
         rest[: len(data) - self._edge] = data[self._edge :]
         self._rest = np.ndarray((25,), "<u8", rest, 0, (1,)).copy()
+        self._kept: dict[tuple[int, int, int], tuple[Array, Array, Array | None]] = {}
+
+    def keep(self, starts: Array, values: Array, counts: Array | None) -> None:
+        """Remember the numbers in texts for whoever asks first.
+
+        `counts` says how many each has; None where all have the same number.
+        """
+        self._kept[len(starts), int(starts[0]), int(starts[-1])] = starts, values, counts
+
+    def kept(self, starts: Array) -> tuple[Array, Array | None] | None:
+        """What was remembered of texts, forgotten hereby; None if nothing was."""
+        found = self._kept.get((len(starts), int(starts[0]), int(starts[-1])))
+        if found is None or not np.array_equal(found[0], starts):
+            return None
+        del self._kept[len(starts), int(starts[0]), int(starts[-1])]
+        return found[1:]
 
     def at(self, places: Array) -> Array:
         """The words (n,) that begin at places within the bytes."""

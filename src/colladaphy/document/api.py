@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 
+from colladaphy.columns.accepting import Verdict, judge
 from lxml import etree
 
 from colladaphy.conform import conform
@@ -11,7 +12,7 @@ from colladaphy.document.document import Document
 from colladaphy.document.writing import Output, document_bytes, write_world
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report, Severity
-from colladaphy.gate import accepts, gate
+from colladaphy.gate import gate
 from colladaphy.links.resource import Resource
 from colladaphy.mapper import WriteOptions
 from colladaphy.source import Limits, Loaded, Parsed, Source, load, parse_loaded
@@ -64,7 +65,8 @@ def _read(
     loaded: Loaded, *, repair: bool, convention: str, family: dict[str, Resource]
 ) -> Resource:
     """One document of a family, without a tree where none is needed to know that it is valid."""
-    if repair or not accepts(loaded.data, loaded.limits):
+    verdict = Verdict(False) if repair else judge(loaded.data, loaded.limits)
+    if not verdict.accepted:
         parsed = parse_loaded(loaded, mend=repair)
         data = None if repair else loaded.data
         return _parsed(parsed, data, repair=repair, convention=convention, family=family)
@@ -75,7 +77,8 @@ def _read(
         return _read(other, repair=repair, convention=convention, family=family)
 
     return Resource(None, loaded.data, parser=lambda: parse_loaded(loaded).tree, file=loaded.file,
-                    opener=opener, family=family, member=loaded.member)  # fmt: skip
+                    opener=opener, family=family, member=loaded.member,
+                    columns=verdict.columns)  # fmt: skip
 
 
 def _parsed(

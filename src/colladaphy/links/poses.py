@@ -66,10 +66,10 @@ class Poses:
         is_moved, is_turned = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         if positions is not None:
             is_moved[...] = True if moved is None else moved
-            place[is_moved] = positions[is_moved]
+            np.copyto(place, positions, where=is_moved[:, None])
         if orientations is not None:
             is_turned[...] = True if turned is None else turned
-            turn[is_turned] = orientations[is_turned]
+            np.copyto(turn, orientations, where=is_turned[:, None])
         return cls(place, is_moved, turn, is_turned)
 
     def __len__(self) -> int:
@@ -77,8 +77,10 @@ class Poses:
 
     def take(self, rows: Array) -> Poses:
         """Some of the rows (numbers or a mask), in that order."""
-        return Poses(self.positions[rows], self.moved[rows],
-                     self.orientations[rows], self.turned[rows])  # fmt: skip
+        if rows.dtype == np.bool_:
+            rows = np.flatnonzero(rows)
+        return Poses(self.positions.take(rows, axis=0), self.moved.take(rows),
+                     self.orientations.take(rows, axis=0), self.turned.take(rows))  # fmt: skip
 
     def put(self, rows: Array, other: Poses) -> None:
         """Replace some of the rows (numbers or a mask)."""

@@ -53,8 +53,10 @@ class Resource:
         family: dict[str, Resource] | None = None,
         tolerant: bool = False,
         member: str | None = None,
+        columns: Columns | None = None,
     ) -> None:
         self._tree = tree
+        self._columns = columns
         self._parser = parser
         self.data = data
         """The bytes as they were read, where nothing was changed in them."""
@@ -89,7 +91,8 @@ class Resource:
     @cached_property
     def columns(self) -> Columns:
         """The document as columns, its pe profile in our own spelling."""
-        made = Columns.of(self._bytes(), lambda: self.tree)
+        made = self._columns or Columns.of(self._bytes(), lambda: self.tree)
+        self._columns = None
         if not self._is_thesis(made):
             return made
         self._shown = in_our_spelling(self.tree)

@@ -24,6 +24,7 @@ from colladaphy.world.rules import (
 )
 
 __all__ = [
+    "are_distinct",
     "array",
     "column",
     "finite",
@@ -254,6 +255,14 @@ def names(sids: NDArray[np.int64], given: Sequence[str | None] | None) -> dict[i
     return {sid: text("name", name) for sid, name in pairs if name is not None}
 
 
+def are_distinct(ids: NDArray[np.int64]) -> bool:
+    """Whether no id is there twice."""
+    if bool(np.all(ids[1:] > ids[:-1])):
+        return True
+    ordered = np.sort(ids)
+    return bool(np.all(ordered[1:] > ordered[:-1]))
+
+
 def new_system_ids(
     given: ArrayLike | None, count: int, following: int, is_used: Callable[[int], bool]
 ) -> NDArray[np.int64]:
@@ -263,9 +272,7 @@ def new_system_ids(
     sids = column("sids", given, np.int64, (count,))
     if count == 0:
         return sids
-    ascending = bool(np.all(sids[1:] > sids[:-1]))
-    distinct = ascending or len(np.unique(sids)) == count
-    if sids.min() < 1 or sids.max() == 2**63 - 1 or not distinct:
+    if sids.min() < 1 or sids.max() == 2**63 - 1 or not are_distinct(sids):
         raise refuse(SYSTEM_ID, "System ids are positive and differ from each other.")
     if sids.min() < following:
         for sid in sids[sids < following].tolist():

@@ -76,7 +76,8 @@ class Column(Generic[A]):
     """The values of an attribute, of a child element of simple content, or of the text."""
 
     __slots__ = (
-        "default", "empty", "form", "group", "kind", "name", "optional", "tag", "tokens", "width",
+        "default", "empty", "form", "group", "kind", "name", "optional", "restriction", "tag",
+        "tokens", "width",
     )  # fmt: skip
 
     def __init__(
@@ -91,6 +92,7 @@ class Column(Generic[A]):
         default: Any = None,
         empty: str = "",
         group: int = 0,
+        restriction: str = "",
     ) -> None:
         self.tag = tag
         """The qualified name; of an attribute as it is written; empty for the text."""
@@ -109,6 +111,8 @@ class Column(Generic[A]):
         """What stands for an empty text."""
         self.group = group
         """The number of the choice that the element is an alternative of; 0 for none."""
+        self.restriction = restriction
+        """Empty where any text of the kind is valid; the schema's pattern, anyURI or "other"."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self.name = name

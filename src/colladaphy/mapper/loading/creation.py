@@ -17,6 +17,7 @@ from colladaphy.world import BodyColumns, MemberColumns, World
 from colladaphy.world.kinds import Kind
 from colladaphy.world.masses import mass_and_inertia
 from colladaphy.world.unions import steiner, sums
+from colladaphy.world.values import are_distinct
 
 __all__ = ["assign_ids", "create_bodies", "free_ids"]
 
@@ -57,10 +58,8 @@ def free_ids(wanted: Sequence[int | None], taken: Iterable[int]) -> list[int]:
 def assign_ids(parts: Parts) -> None:
     """Give every part its system id: the wanted one, or the next in the order of the bodies."""
     sids = parts.sids
-    if bool(np.all(sids > 0)):
-        ascending = bool(np.all(sids[1:] > sids[:-1]))
-        if ascending or len(np.unique(sids)) == len(sids):
-            return
+    if bool(np.all(sids > 0)) and are_distinct(sids):
+        return
     order = np.argsort(parts.body, kind="stable")
     claims = [None if sid == -1 else sid for sid in sids[order].tolist()]
     parts.sids[order] = free_ids(claims, ())
