@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.counting import counted
 from colladaphy.meaning.arrays import sources_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.inputs import inputs_of
@@ -113,8 +114,8 @@ def _made(context: Context, geometry: int) -> Surface | None:
     points = None if source < 0 else sources_of(context).numbers(source)
     if points is None or points.shape[1] < 3 or not len(points) or not np.isfinite(points).all():
         return None
-    corners = np.concatenate([part for part, _ in rings]).astype(np.int64)
-    sizes = np.concatenate([part for _, part in rings]).astype(np.int64)
+    corners = counted(np.concatenate([part for part, _ in rings]))
+    sizes = counted(np.concatenate([part for _, part in rings]))
     if not len(corners) or int(corners.max()) >= len(points) or bool(np.any(sizes < 3)):
         return None
     distinct, inverse = np.unique(points[:, :3] + 0.0, axis=0, return_inverse=True)
