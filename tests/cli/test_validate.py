@@ -376,8 +376,8 @@ def test_names_that_no_console_can_show(validate: Runner) -> None:
 UNNEEDED = {
     "colladaphy.validation.baseline", "colladaphy.validation.behind",
     "colladaphy.validation.fingerprints", "colladaphy.validation.reporters.excerpts",
-    "colladaphy.conform.pipeline", "concurrent.futures", "hashlib", "multiprocessing", "pathspec",
-    "rich", "tomllib", "zipfile",
+    "colladaphy.conform.pipeline", "concurrent.futures", "hashlib", "importlib.metadata",
+    "multiprocessing", "pathspec", "rich", "tomllib", "zipfile",
 }  # fmt: skip
 
 

@@ -5,13 +5,18 @@ What cannot be loaded is told with a finding, and costs nothing but itself.
 
 from __future__ import annotations
 
+import os
+import sys
 from collections.abc import Callable
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
-from typing import Any, Final
+from importlib.machinery import PathFinder
+from typing import TYPE_CHECKING, Any, Final
 
 from colladaphy.findings import Finding
 from colladaphy.source.rules import EXTENSION_BROKEN
+
+if TYPE_CHECKING:
+    from importlib.metadata import EntryPoint
 
 __all__ = ["CONVENTIONS", "ENGINES", "RULES", "broken", "loaded", "offered"]
 
@@ -23,10 +28,44 @@ RULES: Final = "colladaphy.rules"
 @cache
 def offered(group: str) -> tuple[EntryPoint, ...]:
     """The entry points of a group, by name; of several of one name the first."""
+    if not _may_be_offered(group):
+        return ()
+    from importlib.metadata import entry_points
+
     found: dict[str, EntryPoint] = {}
     for point in entry_points(group=group):
         found.setdefault(point.name, point)
     return tuple(found[name] for name in sorted(found))
+
+
+def _may_be_offered(group: str) -> bool:
+    """Whether an installed package names the group; false only where it is sure.
+
+    `importlib.metadata` tells as much, but takes longer than the check of a small document.
+    """
+    header = f"[{group}]".encode()
+    if any(finder is not PathFinder and hasattr(finder, "find_distributions")
+           for finder in sys.meta_path):  # fmt: skip
+        return True
+    for folder in sys.path:
+        try:
+            with os.scandir(folder or ".") as entries:
+                names = [entry.path for entry in entries
+                         if entry.name.endswith((".dist-info", ".egg-info", ".egg"))]  # fmt: skip
+        except NotADirectoryError:  # an archive, which can hold packages
+            return True
+        except OSError:
+            continue
+        for name in names:
+            if name.endswith(".egg"):
+                return True
+            try:
+                with open(os.path.join(name, "entry_points.txt"), "rb") as stream:  # noqa: PTH118, PTH123
+                    if header in stream.read():
+                        return True
+            except OSError:
+                continue
+    return False
 
 
 def broken(group: str, name: str, why: str) -> Finding:
