@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from time import perf_counter
+from time import process_time
 from typing import Any
 
 import numpy as np
@@ -105,6 +105,8 @@ def test_observers_steer_and_are_refused_what_they_cannot(engine: Engine, empty:
     with pytest.raises(EngineError, match="engine-edit"):
         simulation.run(24, observers=[build], every=8)
     assert simulation.run(8).step_count == 280  # and between two runs it is taken up
+    world.destroy(world.create_sphere(3, (0, 0, 20), 0.5, "ball"))
+    simulation.run(8, observers=[kick], every=8)  # an id that was used up changes nothing
 
 
 def test_a_steered_run_is_resumed_to_the_last_bit(engine: Engine, empty: Any,
@@ -198,16 +200,16 @@ def test_a_steered_step_costs_about_a_free_one(engine: Engine, empty: Any) -> No
     def spent(run: Any, count: int = 20) -> float:
         best = math.inf
         for _ in range(3):
-            start = perf_counter()
+            start = process_time()
             run(count)
-            best = min(best, (perf_counter() - start) / count)
+            best = min(best, (process_time() - start) / count)
         return best
 
     simulation.run(20)
     free = spent(simulation.run)
     steered = Simulation(world, engine, forces=lambda seen, _: seen.forces[:, 0].fill(1e-9))
     steered.run(5)
-    assert spent(steered.run) < 10 * free + 1e-3
+    assert spent(steered.run) < 5 * free + 1e-3
 
 
 def test_findings_are_told_before_the_engine_sets_up(

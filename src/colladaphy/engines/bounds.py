@@ -43,6 +43,12 @@ class Bounds:
 
     def widened(self, world: World) -> Bounds:
         """These, or wider ones if speeds or forces of `world` need them."""
+        step = self.time_step
+        speed = float(np.abs(world.linear_velocities).max(initial=0.0))
+        force = float(np.abs(world.forces).max(initial=0.0))
+        least = float(world.masses.min(initial=np.inf, where=world.masses > 0))
+        if _MEASURE * max(speed * step, force * step * step / least) <= self.way:
+            return self  # a quick look, at all bodies together
         moving = ~world.fixed
         speed = float(np.abs(world.linear_velocities[moving]).max(initial=0.0))
         masses = world.masses[moving, None]
@@ -58,11 +64,10 @@ class Bounds:
 
         `most`: no number is larger, as the engine could not go on from it.
         """
-        finite = all(
-            bool(np.all(np.isfinite(values) & (np.abs(values) <= most)))
-            for values in (linear, *others)
-        )
-        fastest = float(np.abs(linear).max(initial=0.0)) if finite else np.inf
+        # The largest of numbers of which one is none is none, and not within any limit.
+        largest = [float(np.abs(values).max(initial=0.0)) for values in (linear, *others)]
+        finite = all(value <= most and value < np.inf for value in largest)
+        fastest = largest[0] if finite else np.inf
         if fastest * self.time_step <= self.way < np.inf:
             return
         what = "" if not finite else f": a body moves at {fastest:g}"

@@ -12,7 +12,7 @@ from colladaphy.engines.digest import static_parts
 if TYPE_CHECKING:
     from colladaphy.world import World
 
-__all__ = ["Edits", "changed"]
+__all__ = ["Edits", "changed", "run_of"]
 
 MOTION = (
     "positions",
@@ -31,7 +31,7 @@ class Edits:
 
     def __init__(self) -> None:
         self._static: list[Any] = []
-        self._motion: list[bytes] = []
+        self._motion: list[Any] = []
         self._shape: tuple[Any, ...] = ()
 
     @property
@@ -46,12 +46,16 @@ class Edits:
     def remember(self, world: World) -> None:
         """Engine and World agree in everything."""
         self._static = static_parts(world)
+        self._shape = _shape(world)
         self.remember_motion(world)
 
-    def remember_motion(self, world: World) -> None:
-        """Engine and World agree in what moves."""
-        self._motion = _motion(world)
+    def accept(self, world: World) -> None:
+        """Nothing was replaced between two runs, but ids may have been used up."""
         self._shape = _shape(world)
+
+    def remember_motion(self, world: World) -> None:
+        """Engine and World agree in what moves; nobody else had the World since they last did."""
+        self._motion = _motion(world)
 
     def moved(self, world: World) -> bool:
         """True if motion, forces or the clock were changed."""
@@ -66,25 +70,31 @@ class Edits:
         return self._static != static_parts(world)
 
 
-def _motion(world: World) -> list[bytes]:
-    clock = f"{world.time!r} {world.step_count}".encode()
-    return [clock, *(getattr(world, name).tobytes() for name in MOTION)]
+def _motion(world: World) -> list[Any]:
+    column = world.top.column
+    return [world.time, world.step_count, *(column(name).tobytes() for name in MOTION)]
 
 
 def _shape(world: World) -> tuple[Any, ...]:
+    column = world.top.column
     return (
-        len(world.bodies),
-        len(world.joints),
+        len(world.top),
+        len(world.joint_table),
         world.next_body_sid,
         world.next_joint_sid,
         world.gravity.tobytes(),
         world.time_step,
-        world.masses.tobytes(),
-        world.fixed.tobytes(),
-        world.material_ids.tobytes(),
+        *(column(name).tobytes() for name in ("masses", "fixed", "material_ids")),
     )
 
 
 def changed(one: NDArray[Any], other: NDArray[Any]) -> bool:
     """True unless two columns are the same, bit by bit."""
     return one.shape != other.shape or np.asarray(one).tobytes() != np.asarray(other).tobytes()
+
+
+def run_of(rows: NDArray[np.int64]) -> Any:
+    """Ascending rows (n,), as a slice where they run without gaps, which is quicker."""
+    if len(rows) and int(rows[-1]) - int(rows[0]) == len(rows) - 1:
+        return slice(int(rows[0]), int(rows[-1]) + 1)
+    return rows

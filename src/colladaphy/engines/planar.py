@@ -176,8 +176,8 @@ def _turning(vectors: Floats, normal: Floats) -> NDArray[Any]:
 def stays_in_plane(frame: Frame, ahead: Iterable[Floats], about: Iterable[Floats]) -> bool:
     """True if the vectors (n, 3) of `ahead` lie in the plane, and those of `about` across it."""
     normal = frame.normal
-    return not any(len(_leaving(vectors, normal)) for vectors in ahead) and not any(
-        len(_turning(vectors, normal)) for vectors in about
+    return not any(v.any() and len(_leaving(v, normal)) for v in ahead) and not any(
+        v.any() and len(_turning(v, normal)) for v in about
     )
 
 

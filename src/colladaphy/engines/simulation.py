@@ -273,7 +273,6 @@ class Simulation:
     def _take_up_motion(self) -> None:
         engine = self.engine
         if self._steerable and self._steerable.steer(self.world):
-            self._edits.remember_motion(self.world)
             return
         errors = [f for f in engine.check(self.world) if f.severity is Severity.ERROR]
         if errors:
@@ -283,6 +282,7 @@ class Simulation:
     def _take_up_edits(self) -> None:
         edits = self._edits
         if edits.known and not edits.replaced(self.world):
+            edits.accept(self.world)
             if edits.moved(self.world):
                 self._take_up_motion()
             return

@@ -187,9 +187,9 @@ class MujocoEngine:
     def _push(self, world: World) -> None:
         assert self._motion is not None
         rows, ids = self._motion.rows, self._motion.ids
-        push = np.concatenate([world.forces[rows], world.torques[rows]], axis=1)
-        self._data.xfrc_applied[ids] = push
-        self._pushed = bool(np.any(push))
+        applied = self._data.xfrc_applied
+        applied[ids, :3], applied[ids, 3:] = world.forces[rows], world.torques[rows]
+        self._pushed = bool(world.forces.any() or world.torques.any())
 
     def contacts(self) -> list[Contact]:
         """See `Engine.contacts`."""

@@ -8,6 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.engines.edits import run_of
 from colladaphy.engines.frames import ORIGIN, Pose
 from colladaphy.engines.mujoco_engine.axes import coordinates
 from colladaphy.world import rotations
@@ -22,6 +23,7 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 _NOTHING: Final = 1e-12
+_MOTION: Final = ("positions", "orientations", "linear_velocities", "angular_velocities")
 
 
 class Motion:
@@ -36,6 +38,8 @@ class Motion:
         self._hanging = [sid for sid in order if sid in model.forest.links]
         self.rows: Ints = np.array([rows[sid] for sid in order], dtype=np.int64)
         """Rows of the World's columns of the bodies that move."""
+        ascending = bool(np.all(np.diff(self.rows) > 0))
+        self._run: Any = run_of(self.rows) if ascending else self.rows
         self.ids: Ints = np.array([model.bodies[sid] for sid in order], dtype=np.int64)
         """MuJoCo's ids of the same bodies."""
         self.trees: Ints = np.asarray(compiled.body_treeid)[self.ids]
@@ -56,11 +60,8 @@ class Motion:
 
     def columns(self, world: World) -> list[NDArray[Any]]:
         """Copies of poses and velocities of the bodies that move."""
-        rows = self.rows
-        return [
-            world.positions[rows], world.orientations[rows], world.linear_velocities[rows],
-            world.angular_velocities[rows],
-        ]  # fmt: skip
+        column, rows = world.top.column, self._run
+        return [column(name)[rows].copy() for name in _MOTION]
 
     def put(self, world: World, data: Any) -> None:
         """Set positions and velocities of `data` from the World."""
@@ -155,7 +156,7 @@ class Motion:
         world.positions[rows] = data.qpos[self._position]
         world.orientations[rows] = turns
         world.linear_velocities[rows] = data.qvel[self._linear]
-        world.angular_velocities[rows] = rotations.rotate(turns, data.qvel[self._angular])
+        world.angular_velocities[rows] = _rotated(turns, data.qvel[self._angular])
         if not self._hanging:
             return
         compiled, ids, rows = self._model.compiled, self._hanging_ids, self._hanging_rows
@@ -170,3 +171,16 @@ class Motion:
         world.orientations[rows] = data.xquat[ids]
         world.angular_velocities[rows] = spins[:, :3]
         world.linear_velocities[rows] = spins[:, 3:] + np.cross(spins[:, :3], arms)
+
+
+def _rotated(turns: Floats, vectors: Floats) -> Floats:
+    """Vectors (n, 3) rotated by quaternions (n, 4) of length one: v + 2 u × (u × v + w v)."""
+    w, x, y, z = turns.T
+    a, b, c = vectors.T
+    inner = (y * c - z * b + w * a, z * a - x * c + w * b, x * b - y * a + w * c)
+    p, q, r = inner
+    rotated = np.empty_like(vectors)
+    rotated[:, 0] = a + 2.0 * (y * r - z * q)
+    rotated[:, 1] = b + 2.0 * (z * p - x * r)
+    rotated[:, 2] = c + 2.0 * (x * q - y * p)
+    return rotated

@@ -42,6 +42,7 @@ class Batch:
         self._order = np.argsort(ids)
         self._ids = ids[self._order]
         self._buffer: Any = None
+        self._pushed: Any = None  # where all bodies' forces are, once they have been asked for
         if batch is not None and bodies:
             self._buffer = batch.Buffer()
             try:
@@ -63,16 +64,19 @@ class Batch:
             ):
                 body.force, body.torque = tuple(force), torque
             return
-        places, values = self._get(_WITH_ID, _PUSH_WIDTH)
+        if self._pushed is None:  # the order of the bodies of a space stays as it is
+            buffer = batch.Buffer()
+            self._pushed = buffer, *self._get(buffer, _WITH_ID, _PUSH_WIDTH)
+        buffer, places, values = self._pushed
         values[places, :2], values[places, 2] = forces, torques
-        batch.set_space_bodies(self._space, _PUSH, self._buffer)
+        batch.set_space_bodies(self._space, _PUSH, buffer)
 
-    def _get(self, fields: Any, width: int) -> tuple[NDArray[np.int64], Floats]:
+    def _get(self, buffer: Any, fields: Any, width: int) -> tuple[NDArray[np.int64], Floats]:
         """Rows of the moving bodies, and the values (m, width) of all bodies, to be written to."""
-        self._buffer.clear()
-        batch.get_space_bodies(self._space, fields, self._buffer)
-        found = np.frombuffer(self._buffer.int_buf(), dtype=np.int64)
-        values = np.frombuffer(self._buffer.float_buf(), dtype=np.float64).reshape(-1, width)
+        buffer.clear()
+        batch.get_space_bodies(self._space, fields, buffer)
+        found = np.frombuffer(buffer.int_buf(), dtype=np.int64)
+        values = np.frombuffer(buffer.float_buf(), dtype=np.float64).reshape(-1, width)
         rows = np.argsort(found, kind="stable")
         rows = rows[np.searchsorted(found[rows], self._ids)]
         places = np.empty_like(rows)
@@ -80,7 +84,7 @@ class Batch:
         return places, values
 
     def _fast_state(self) -> Floats:
-        places, values = self._get(_STATE, _STATE_WIDTH)
+        places, values = self._get(self._buffer, _STATE, _STATE_WIDTH)
         return np.array(values[places])
 
     def _slow_state(self) -> Floats:

@@ -11,6 +11,7 @@ import pymunk
 from colladaphy.engines.bounds import Bounds
 from colladaphy.engines.clock import Clock
 from colladaphy.engines.digest import digest
+from colladaphy.engines.edits import run_of
 from colladaphy.engines.jointed import fastest, joint_findings
 from colladaphy.engines.options import Value
 from colladaphy.engines.outlines import HalfPlane
@@ -62,6 +63,7 @@ class PymunkEngine:
         self._plan: Planarity | None = None
         self._heights: Any = np.zeros(0)  # of the bodies that move, as they were loaded
         self._orientations: Any = np.zeros((0, 4))
+        self._rows: Any = slice(0)  # of the World's columns, of the bodies that move
         self._clock = Clock(0.0, 0, 1.0)
         self._bounds = Bounds(np.inf, 0.0)
         self._batch = Batch(pymunk.Space(), [])
@@ -98,6 +100,7 @@ class PymunkEngine:
         self._bounds = Bounds.of(world, clock.time_step)
         self._poses, self._speeds = _poses(world), _speeds(world)
         moving = ~world.fixed
+        self._rows = run_of(np.flatnonzero(moving))
         self._heights = planarity.frame.height(world.positions[moving])
         self._orientations = world.orientations[moving]
         self._clock = clock
@@ -132,18 +135,19 @@ class PymunkEngine:
         assert self._model is not None and self._plan is not None
         if self._stepped:
             frame, state = self._plan.frame, self._latest
-            rows = np.searchsorted(world.sids, np.array(self._model.sids, dtype=np.int64))
+            rows = self._rows
             world.positions[rows] = frame.lift(state[:, :2], self._heights)
             world.orientations[rows] = _turned(self._orientations, frame.normal, state[:, 2])
             world.linear_velocities[rows] = frame.lift(state[:, 3:5])
             world.angular_velocities[rows] = state[:, 5:] * frame.normal
-            asleep = np.zeros(len(rows), dtype=np.bool_)
+            world.sleeping[rows] = False
             if self._options.sleep:
-                asleep[:] = [body.is_sleeping for body in self._model.bodies]
-            world.sleeping[rows] = asleep
-            # Chipmunk keeps the velocity with which a body fell asleep; but it stands still.
-            world.linear_velocities[rows[asleep]] = 0.0
-            world.angular_velocities[rows[asleep]] = 0.0
+                asleep = np.array([body.is_sleeping for body in self._model.bodies], np.bool_)
+                world.sleeping[rows] = asleep
+                # Chipmunk keeps the velocity with which a body fell asleep; but it stands still.
+                still = np.flatnonzero(~world.fixed)[asleep]
+                world.linear_velocities[still] = 0.0
+                world.angular_velocities[still] = 0.0
             world.forces[rows] = 0.0
             world.torques[rows] = 0.0
         self._clock.store(world)
@@ -156,20 +160,21 @@ class PymunkEngine:
         if Clock.of(world) != self._clock or _poses(world) != self._poses:
             return False
         frame, model = self._plan.frame, self._model
-        rows = np.searchsorted(world.sids, np.array(model.sids, dtype=np.int64))
-        ahead = (world.linear_velocities[rows], world.forces[rows])
-        about = (world.angular_velocities[rows], world.torques[rows])
+        rows, speeds = self._rows, _speeds(world)
+        kicked = speeds != self._speeds  # or else they would be rounded
+        linear, angular = world.linear_velocities[rows], world.angular_velocities[rows]
+        forces, torques = world.forces[rows], world.torques[rows]
+        ahead, about = ((linear, forces), (angular, torques)) if kicked else ((forces,), (torques,))
         if not stays_in_plane(frame, ahead, about):
             return False  # the load says so, and names the bodies
-        speeds = _speeds(world)
-        if speeds != self._speeds:  # or else they would be rounded
-            flat, turns = frame.flat(ahead[0]).tolist(), frame.height(about[0]).tolist()
+        if kicked:
+            flat, turns = frame.flat(linear).tolist(), frame.height(angular).tolist()
             for body, velocity, spin in zip(model.bodies, flat, turns, strict=True):
                 body.velocity, body.angular_velocity = tuple(velocity), spin
             if links := _planned(world, self._plan):
                 let_joints_have_their_way(model, links)
         self._speeds = speeds
-        self._batch.push(frame.flat(ahead[1]), frame.height(about[1]))
+        self._batch.push(frame.flat(forces), frame.height(torques))
         self._bounds = self._bounds.widened(world)
         return True
 
@@ -251,6 +256,12 @@ def _speeds(world: World) -> tuple[bytes, bytes]:
 
 
 def _turned(orientations: Any, normal: Any, angles: Any) -> Any:
-    turn = rotations.from_axis_angle(normal, angles)
-    turned = rotations.normalize(rotations.multiply(turn, orientations))
-    return np.where(angles[:, None] == 0.0, orientations, turned)
+    """Orientations (n, 4) turned by angles (n,) about one axis."""
+    half = 0.5 * angles[:, None]
+    cosines, sines = np.cos(half), np.sin(half)
+    x, y, z = normal.tolist()
+    # The product of the axis, as a quaternion without a real part, with another one.
+    by_axis = np.array([(0, -x, -y, -z), (x, 0, -z, y), (y, z, 0, -x), (z, -y, x, 0)])
+    crossed = sum(orientations[:, i, None] * by_axis[:, i] for i in range(4))
+    turned = rotations.normalize(cosines * orientations + sines * crossed)
+    return np.where(half == 0.0, orientations, turned)
