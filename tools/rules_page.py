@@ -12,6 +12,7 @@ from pathlib import Path
 
 from colladaphy.findings import Rule
 from colladaphy.validation.catalogue import own_rules
+from colladaphy.validation.tellers import TELLERS, tellers
 
 PAGE = Path(__file__).resolve().parent.parent / "docs" / "rules.md"
 HEAD = """# Codes of findings
@@ -23,19 +24,20 @@ Only findings of severity error make a document invalid.
 
 def page() -> str:
     """The page's text, one table a stage."""
-    parts = [HEAD]
+    parts = [HEAD, "Told by:\n", *(f"- {use}: {what}" for use, what in TELLERS.items())]
     for stage, rules in groupby(own_rules(), key=lambda rule: rule.stage):
         parts.append(
-            f"\n## {stage}\n\n| code | severity | what it means | why | what to do | source |"
+            f"\n## {stage}\n\n"
+            "| code | severity | what it means | why | what to do | source | told by |"
         )
-        parts.append("|---|---|---|---|---|---|")
+        parts.append("|---|---|---|---|---|---|---|")
         parts.extend(map(row, rules))
     return "\n".join(parts) + "\n"
 
 
 def row(rule: Rule) -> str:
     cells = (f"`{rule.code}`", str(rule.severity), rule.summary, rule.why, rule.hint,
-             rule.section)  # fmt: skip
+             rule.section, ", ".join(tellers(rule.code)))  # fmt: skip
     return "| " + " | ".join((cell or "").replace("|", "\\|") for cell in cells) + " |"
 
 
