@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import random
+import signal
 import sys
 import time
 from multiprocessing.connection import wait
@@ -78,6 +79,7 @@ class Run:
 
     def all(self) -> None:
         """Run to the end; an interrupt ends it early, with what was found."""
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
         workers = [
             Worker(self._options.regressions, int(self._options.memory * 2**30))
             for _ in range(self._options.processes)

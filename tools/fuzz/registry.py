@@ -14,7 +14,7 @@ from hypothesis.strategies import SearchStrategy
 
 __all__ = ["ELSEWHERE", "MODULES", "Property", "all_properties", "note", "noted", "of"]
 
-MODULES = "worlds documents producers meaning anything"
+MODULES = "worlds documents physics producers meaning anything stateful"
 """The modules of `tools.fuzz.properties`."""
 ELSEWHERE = "COLLADAPHY_FUZZ_MODULES"
 """Names the modules, in all processes, that are taken in their place."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import multiprocessing
-import os
 import tempfile
 import time
 import traceback
@@ -103,7 +102,6 @@ class Worker:
 
 def _work(connection: Connection, folder: Path, current: Path, memory: int) -> None:
     limit_memory(memory)
-    os.nice(5)
     warnings.simplefilter("error")
     properties = all_properties()
     while True:

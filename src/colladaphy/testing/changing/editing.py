@@ -148,6 +148,15 @@ def _drop(*names: str) -> Callable[[st.DrawFn, Element], None]:
     return change
 
 
+def _drop_techniques(draw: st.DrawFn, root: Element) -> None:
+    """Those of any profile, and the extras that had nothing else."""
+    for technique in [each for each in root.iter(f"{C}technique") if "profile" in each.attrib]:
+        around = technique.getparent()
+        _remove(draw, technique)
+        if around is not None and around.tag == f"{C}extra" and child(around, "technique") is None:
+            _remove(draw, around)
+
+
 def _drop_comments(draw: st.DrawFn, root: Element) -> None:
     etree.strip_tags(root, etree.Comment)
     etree.strip_tags(root, etree.ProcessingInstruction)
@@ -199,7 +208,7 @@ EDITS: dict[str, Change] = {
     "joints-removed": (of("instance_rigid_constraint"), _remove),
     "unit": (whole, _unit),
     "numbers-rounded": (whole, _round),
-    "techniques-dropped": (whole, _drop("technique")),
+    "techniques-dropped": (whole, _drop_techniques),
     "extras-dropped": (whole, _drop("extra")),
     "comments-dropped": (whole, _drop_comments),
     "indented": (whole, _indent),
