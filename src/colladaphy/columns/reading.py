@@ -116,6 +116,15 @@ class Document:
             above = np.maximum(index.parent[above], 0)
         return foreign
 
+    def names(self) -> dict[str, int]:
+        """How many elements there are of each qualified name, those in techniques included."""
+        counts = np.bincount(self.index.codes, minlength=1).tolist()
+        found = {
+            name: sum(counts[code] for code in codes if code < len(counts))
+            for name, codes in self._codes.items()
+        }
+        return {name: count for name, count in found.items() if count}
+
     # --- texts that are compared only
 
     def factorized(self, rows: Rows, name: str) -> tuple[Array, list[str]]:

@@ -17,7 +17,7 @@ from colladaphy.conform.grammar import SimpleType
 from colladaphy.conform.lexical import is_valid, mend
 from colladaphy.gate import is_valid_text, schema_folder
 
-__all__ = ["PE", "mend_profiles"]
+__all__ = ["PE", "known_tops", "mend_profiles"]
 
 PE = "urn:colladaphy:pe:1"
 _XS = "{http://www.w3.org/2001/XMLSchema}"
@@ -36,7 +36,7 @@ def mend_profiles(context: Context, *, valid: bool) -> None:
     ]
     for top in () if valid else tops:
         _mend_numbers(context, top)
-    known = all(top.tag in _known() for top in tops)
+    known = all(top.tag in known_tops() for top in tops)
     if known and (valid or not tops or is_valid_text(etree.tostring(context.root))):
         return
     for top in tops:
@@ -81,6 +81,7 @@ def _schema() -> etree.XMLSchema:
 
 
 @cache
-def _known() -> frozenset[str]:
+def known_tops() -> frozenset[str]:
+    """The tags that an element of the profile may have where it begins."""
     root = etree.parse(schema_folder() / "pe-profile.xsd").getroot()
     return frozenset(f"{{{PE}}}{child.get('name')}" for child in root.iterchildren(_XS + "element"))

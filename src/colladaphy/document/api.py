@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import logging
 
-from colladaphy.columns.accepting import Verdict, judge
 from lxml import etree
 
+from colladaphy.columns.accepting import judge
+from colladaphy.columns.reading import Document as Columns
 from colladaphy.conform import conform
 from colladaphy.document.document import Document
 from colladaphy.document.writing import Output, document_bytes, write_world
@@ -14,11 +15,19 @@ from colladaphy.errors import SchemaError
 from colladaphy.findings import Report, Severity
 from colladaphy.gate import gate
 from colladaphy.links.resource import Resource
+from colladaphy.links.settled import is_settled
 from colladaphy.mapper import WriteOptions
 from colladaphy.source import Limits, Loaded, Parsed, Source, load, parse_loaded
 from colladaphy.world import World
 
-__all__ = ["document_bytes", "document_of", "document_of_mended", "read", "write"]
+__all__ = [
+    "document_bytes",
+    "document_of",
+    "document_of_mended",
+    "read",
+    "settled_document",
+    "write",
+]
 
 _log = logging.getLogger("colladaphy.document")
 
@@ -40,6 +49,27 @@ def read(
     loaded = load(source, limits or Limits())
     resource = _read(loaded, repair=repair, convention=convention, family={})
     return Document(resource, archive=loaded.archive, member=loaded.member)
+
+
+def _judged(loaded: Loaded, convention: str | None) -> tuple[bool, Columns | None]:
+    """Whether a document is sure to be valid, and its columns where they were read on the way.
+
+    With a convention, it has to be sure, too, that repair would change nothing.
+    """
+    verdict = judge(loaded.data, loaded.limits)
+    if not verdict.accepted or convention is None:
+        return verdict.accepted, verdict.columns
+    columns = verdict.columns or Columns.of(loaded.data)
+    return is_settled(columns, convention), columns
+
+
+def settled_document(loaded: Loaded, convention: str = "auto") -> tuple[Document, Columns] | None:
+    """What repair would read, with its columns, where it is sure that repair changes nothing."""
+    settled, columns = _judged(loaded, convention)
+    if not settled or columns is None:
+        return None
+    resource = _valid(loaded, columns, repair=True, convention=convention, family={})
+    return Document(resource, archive=loaded.archive, member=loaded.member), columns
 
 
 def document_of(parsed: Parsed, *, repair: bool, convention: str = "auto") -> Document:
@@ -65,11 +95,19 @@ def _read(
     loaded: Loaded, *, repair: bool, convention: str, family: dict[str, Resource]
 ) -> Resource:
     """One document of a family, without a tree where none is needed to know that it is valid."""
-    verdict = Verdict(False) if repair else judge(loaded.data, loaded.limits)
-    if not verdict.accepted:
+    settled, columns = _judged(loaded, convention if repair else None)
+    if not settled:
         parsed = parse_loaded(loaded, mend=repair)
         data = None if repair else loaded.data
         return _parsed(parsed, data, repair=repair, convention=convention, family=family)
+    return _valid(loaded, columns, repair=repair, convention=convention, family=family)
+
+
+def _valid(
+    loaded: Loaded, columns: Columns | None, *, repair: bool, convention: str,
+    family: dict[str, Resource],
+) -> Resource:  # fmt: skip
+    """A document that is known to be valid, and has no tree until one is needed."""
     _log.info("read %s with 0 findings", loaded.file or "a document")
 
     def opener(file: str) -> Resource:
@@ -77,8 +115,8 @@ def _read(
         return _read(other, repair=repair, convention=convention, family=family)
 
     return Resource(None, loaded.data, parser=lambda: parse_loaded(loaded).tree, file=loaded.file,
-                    opener=opener, family=family, member=loaded.member,
-                    columns=verdict.columns)  # fmt: skip
+                    opener=opener, family=family, member=loaded.member, tolerant=repair,
+                    columns=columns)  # fmt: skip
 
 
 def _parsed(

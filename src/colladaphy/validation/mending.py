@@ -7,14 +7,27 @@ import shutil
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from lxml import etree
 
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report
 from colladaphy.gate import gate
-from colladaphy.source import Limits, Parsed, Source, Target, packed_for, parse, save
+from colladaphy.source import (
+    Limits,
+    Parsed,
+    Source,
+    Target,
+    load,
+    packed_for,
+    parse_loaded,
+    save,
+)
 from colladaphy.validation.companions import Render, companions_of
+
+if TYPE_CHECKING:
+    from colladaphy.document import Document
 
 __all__ = ["Mended", "backup", "mend", "serialise", "unified_diff"]
 
@@ -26,6 +39,8 @@ class Mended:
     parsed: Parsed
     tree: etree._ElementTree
     report: Report
+    settled: Document | None = None
+    """The document, where it is known that nothing was to be changed in it."""
 
     def save(
         self,
@@ -80,7 +95,9 @@ class Mended:
         from colladaphy.document.api import document_of_mended
         from colladaphy.validation.statistics import skipped_bodies
 
-        document = document_of_mended(self.parsed, self.tree, convention=convention)
+        document = self.settled
+        if document is None:
+            document = document_of_mended(self.parsed, self.tree, convention=convention)
         world = document.load()
         lost = skipped_bodies([*self.report, *document.report])
         return len(world.bodies), len(lost)
@@ -100,8 +117,13 @@ def mend(
     made valid.
     """
     from colladaphy.conform import conform
+    from colladaphy.document.api import settled_document
 
-    parsed = parse(source, limits or Limits(), mend=True)
+    loaded = load(source, limits or Limits())
+    settled = settled_document(loaded, convention)
+    parsed = parse_loaded(loaded, mend=True)
+    if settled is not None:
+        return Mended(parsed, parsed.tree, Report(parsed.file), settled[0])
     tree, changes = conform(parsed.tree, file=parsed.file, convention=convention, only=only)
     report = Report(parsed.file, list(parsed.findings))
     report.extend(changes)

@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from lxml import etree
+from numpy.typing import NDArray
 
 from colladaphy.conform import rules as conform_rules
 from colladaphy.errors import ColladaError
 from colladaphy.findings import Finding
 from colladaphy.links import rules as link_rules
+from colladaphy.links.names import COLLADA, PE, c, local_name
 from colladaphy.mapper import rules as mapper_rules
-from colladaphy.source import Limits, Parsed, Source, parse
+from colladaphy.source import Limits, Loaded, Parsed, Source, load, parse_loaded
+from colladaphy_schema.core_columns import AssetTypeRows, TechniqueTypeRows
+from colladaphy_schema.rows import Rows
 
 if TYPE_CHECKING:
+    from colladaphy.columns.reading import Document as Columns
     from colladaphy.document import Document, Scene
     from colladaphy.world import World
 
@@ -64,14 +70,27 @@ def describe(
     and why. A file that cannot be mended has no ``scenes`` and no ``world``, but ``problems``.
     Raises InputError and XmlError as `colladaphy.read` does.
     """
+    from colladaphy.document.api import settled_document
+
+    loaded = load(source, limits or Limits())
+    settled = settled_document(loaded, convention)
+    if settled is None:
+        parsed = parse_loaded(loaded, mend=True)
+        return _with_world(_facts(parsed), lambda: _mended(parsed, convention))
+    document, columns = settled
+    facts = _facts_of_columns(loaded, document, columns)
+    return _with_world(facts, lambda: document)
+
+
+def _facts(parsed: Parsed) -> dict[str, Any]:
+    """What a tree says, of any version and however broken."""
     from colladaphy.conform import detect_version
 
-    parsed = parse(source, limits or Limits(), mend=True)
     root = parsed.tree.getroot()
     asset = _child(root, "asset")
     unit = _child(asset, "unit")
     axis = _child(asset, "up_axis")
-    facts: dict[str, Any] = {
+    return {
         "path": parsed.file,
         "version": detect_version(parsed.tree),
         "unit": {
@@ -83,12 +102,58 @@ def describe(
             tool.text.strip() for tool in root.iter("{*}authoring_tool") if tool.text
         ],
         "document": _count(root),
-        "scenes": None,
-        "world": None,
-        "problems": [],
     }
+
+
+def _facts_of_columns(loaded: Loaded, document: Document, columns: Columns) -> dict[str, Any]:
+    """The same of a valid document of plain bodies, without a tree."""
+    name, meter = document.unit
+    assets = columns.rows(AssetTypeRows, c("asset"))
+    tools = [tool.strip() for tool in assets.contributor.authoring_tool if tool and tool.strip()]
+    names = {local_name(tag): count for tag, count in columns.names().items()
+             if tag.startswith(f"{{{COLLADA}}}")}  # fmt: skip
+    techniques = columns.rows(TechniqueTypeRows, c("technique")).profile
+
+    def elements(tag: str) -> NDArray[Any]:
+        found = columns.rows(Rows, c(tag)).ordinals
+        assert found is not None
+        return found
+
+    entries = columns.index.parent
+    libraries: dict[str, int] = {}
+    shapes: Counter[str] = Counter()
+    within = elements("shape")
+    for tag in sorted(names):
+        if tag.startswith("library_"):
+            inner = np.isin(entries, elements(tag))
+            left_out = (inner[elements(other)].sum() for other in ("asset", "extra"))
+            libraries[tag] = int(inner.sum()) - sum(map(int, left_out))
+        elif tag in _SHAPES:
+            found = int(np.isin(entries[elements(tag)], within).sum())
+            shapes.update({tag: found} if found else {})
+    return {
+        "path": loaded.file,
+        "version": "1.5.0",
+        "unit": {"name": name, "meter": meter},
+        "up_axis": document.up_axis,
+        "authoring_tools": tools,
+        "document": {
+            "elements": len(columns.index),
+            **{tag: names.get(tag, 0) for tag in _COUNTED},
+            "shape": names.get("shape", 0),
+            "shapes": dict(sorted(shapes.items())),
+            "robots": [],
+            "libraries": dict(sorted(libraries.items())),
+            "techniques": dict(sorted(Counter(techniques).items())),
+        },
+    }
+
+
+def _with_world(facts: dict[str, Any], read: Callable[[], Document]) -> dict[str, Any]:
+    """The facts with the scenes, and with the World that comes of them."""
+    facts |= {"scenes": None, "world": None, "problems": []}
     try:
-        document = _mended(parsed, convention)
+        document = read()
         facts["scenes"] = [_scene(scene) for scene in document.scenes]
         world = document.load()
     except ColladaError as error:
@@ -109,7 +174,11 @@ def _count(root: etree._Element) -> dict[str, Any]:
     names: Counter[str] = Counter()
     shapes: Counter[str] = Counter()
     profiles: Counter[str] = Counter()
+    elements = 0
     for element in root.iter(etree.Element):
+        elements += 1
+        if element.tag.startswith(f"{{{PE}}}"):
+            continue  # the profile says again what is counted already
         name = _local(element)
         names[name] += 1
         if name == "shape":
@@ -124,7 +193,7 @@ def _count(root: etree._Element) -> dict[str, Any]:
             )
     profiles.pop("", None)
     return {
-        "elements": sum(names.values()),
+        "elements": elements,
         **{name: names[name] for name in _COUNTED},
         "shape": names["shape"],
         "shapes": dict(sorted(shapes.items())),

@@ -14,9 +14,18 @@ from colladaphy.conform import rules
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import blender, bullet, model_frames, units
 from colladaphy.conform.conventions.clues import Clues, add_note, drop_note, find_note, read_clues
+from colladaphy.findings import Finding
 from colladaphy.source import extensions
 
-__all__ = ["CONVENTIONS", "Convention", "conventions", "translate"]
+__all__ = [
+    "CONVENTIONS",
+    "Clues",
+    "Convention",
+    "conventions",
+    "faults_of_others",
+    "recognised",
+    "translate",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +118,11 @@ def conventions() -> tuple[Convention, ...]:
     return CONVENTIONS + tuple(convention for _, convention in others)
 
 
+def faults_of_others() -> list[Finding]:
+    """What is wrong with the conventions that other packages offer."""
+    return list(extensions.loaded(extensions.CONVENTIONS, _fault)[1])
+
+
 def _fault(offered: object) -> str | None:
     if not isinstance(offered, Convention):
         return f"it is no Convention, but {offered!r}"
@@ -122,7 +136,7 @@ def translate(context: Context, convention: str) -> None:
     `convention` is the name of one of `conventions`, "auto" or "none". Raises ValueError for other
     names.
     """
-    context.findings.extend(extensions.loaded(extensions.CONVENTIONS, _fault)[1])
+    context.findings.extend(faults_of_others())
     by_name = {known.name: known for known in conventions()}
     if convention not in ("auto", "none", *by_name):
         names = ", ".join(["auto", "none", *by_name])
@@ -131,7 +145,7 @@ def translate(context: Context, convention: str) -> None:
         return
     clues = replace(read_clues(context), rewritten=bullet.count_rewritten(context))
     named = by_name.get(convention)
-    chosen = [(named, "asked for by name")] if named else _recognised(clues)
+    chosen = [(named, "asked for by name")] if named else recognised(clues)
     if not chosen or not context.wants(rules.CONVENTION):
         return
     for known, why in chosen:
@@ -144,7 +158,7 @@ def translate(context: Context, convention: str) -> None:
     add_note(context, "convention", name=names_of_chosen, **digits)
 
 
-def _recognised(clues: Clues) -> list[tuple[Convention, str]]:
+def recognised(clues: Clues) -> list[tuple[Convention, str]]:
     """The first convention that fits; with Bullet also that of the file which Bullet edited."""
     fitting = [(known, why) for known in conventions() if (why := known.recognise(clues))]
     if not fitting or not fitting[0][0].name.startswith("bullet"):
