@@ -238,6 +238,27 @@ def test_a_flood_of_errors_takes_time_in_proportion(monkeypatch: pytest.MonkeyPa
     assert max(seen) < 5000
 
 
+def test_a_flood_of_ids_takes_time_in_proportion(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A sample of the children shows nothing of ids that are there twice."""
+    seen: list[int] = []
+    validate = faults._validate
+
+    def watched(tree: object) -> object:
+        seen.append(len(tree.getroot()[1][0]))  # type: ignore[index,attr-defined]
+        return validate(tree)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(faults, "_validate", watched)
+    bodies = "".join(
+        f'<rigid_body sid="b{i}" id="i{i % 10_000}"><technique_common>{SHAPE}'
+        "</technique_common></rigid_body>"
+        for i in range(20_000)
+    )
+    found = gate(parse(document(model(bodies))).tree)
+    assert {finding.code for finding in found} == {"schema-duplicate-id"}
+    assert len(found) == 10_000
+    assert max(seen) < 5000
+
+
 @pytest.mark.parametrize("faulty", [None, 0, 2, 9998])
 def test_a_large_document_is_validated_at_once_for_a_fault(
     monkeypatch: pytest.MonkeyPatch, faulty: int | None

@@ -65,8 +65,11 @@ def violations(
     """
     places = places or Places(tree.getroot())
     parents = wide_parents(tree)
-    validate = partial(_validate, schema=schema)
-    complaints = validate_in_blocks(tree, parents, validate) if parents else validate(tree)
+    validate = _validate if schema is None else partial(_validate, schema=schema)
+    if parents:
+        complaints = validate_in_blocks(tree, parents, validate, expected=_doubled(tree))
+    else:
+        complaints = validate(tree)
     said = [(element, translate(code, message)) for element, code, message in complaints]
     found = [*_clean(said), *_unknown_profile(tree)]
     if said or not fresh:
@@ -99,6 +102,12 @@ def _clean(violations: list[_Found]) -> list[_Found]:
                 continue
         kept.append((element, violation))
     return kept
+
+
+def _doubled(tree: _ElementTree) -> int:
+    """How many ids are there again; content of techniques counts, too."""
+    ids = _all_ids(tree)
+    return len(ids) - len(set(ids)) if isinstance(ids, list) else 0
 
 
 def _duplicate_ids(tree: _ElementTree) -> list[_Found]:

@@ -49,7 +49,14 @@ def rigid(context: Context) -> Iterator[Hit]:
         node = context.label(int(context.parent[element]))
         done = stretch_of(_matrix(context, element))
         message = f"The {name} of {node} {done}, and a body stands in it."
-        yield Hit(NOT_RIGID, element, message, tuple(instances[:3]))
+        yield Hit(NOT_RIGID, element, message, (*instances[:3], *_bodies(context, instances[:3])))
+
+
+def _bodies(context: Context, instances: list[int]) -> list[int]:
+    """The rigid bodies that elements are instances of."""
+    bodies = bodies_of(context)
+    rows = [bodies.body[row] for row in map(bodies.row, instances) if row >= 0]
+    return [int(bodies.elements[row]) for row in rows if row >= 0]
 
 
 def _matrix(context: Context, element: int) -> Array:

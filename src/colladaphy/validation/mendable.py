@@ -82,6 +82,7 @@ class Family:
                 number = self.parents.get(number, -1)
                 around.append(number)
         around += self.children.get(hit.element, ())
+        around += self.children.get(self.parents.get(hit.element, -1), ())
         for number in around:
             made = repaired.get(number, ())
             for code in fitting:
