@@ -86,7 +86,7 @@ FRAGMENTS = (
     b' url="#a#b"', b' url="%zz"', b"#", b"Model1/Body1", b"false", b"2", b"<xmag>1</xmag>",
     b"<ymag>1</ymag>", b"<aspect_ratio>1</aspect_ratio>", b"<mass>1</mass>", b"<pe:body/>",
     b"<pe:uid>1</pe:uid>", b"text", b"\t", b"\r\n", b"]]>", b"</pe:body>",
-    b"<translate>1</translate>",
+    b"<translate>1</translate>", b"a\nb",
 )  # fmt: skip
 
 

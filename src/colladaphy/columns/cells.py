@@ -14,7 +14,7 @@ from colladaphy.columns.pieces import Part, Slot
 from colladaphy.errors import SchemaError
 from colladaphy_schema.rows import Column, Lists, Masked, Rows
 
-__all__ = ["Cells", "cells"]
+__all__ = ["Cells", "cells", "present_in"]
 
 Array = NDArray[Any]
 
@@ -46,6 +46,17 @@ def cells(rows: Rows, column: Column[Any]) -> Cells | None:
     if column.tokens and column.width is None:
         return _lists(rows, column, value)
     return _numbers(rows, column, value)
+
+
+def present_in(value: Any) -> Array:
+    """Which rows (n,) have a value, be it the default, which is not written."""
+    if isinstance(value, Masked):
+        return np.asarray(value.present, np.bool_)
+    if isinstance(value, Lists) and value.present is not None:
+        return np.asarray(value.present, np.bool_)
+    if isinstance(value, list) and None in value:
+        return np.array([text is not None for text in value], np.bool_)
+    return np.ones(len(value), np.bool_)
 
 
 def _place(rows: Rows, column: Column[Any]) -> str:

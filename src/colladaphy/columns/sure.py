@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from typing import Any, Final
 
 import numpy as np
@@ -12,7 +11,7 @@ from numpy.typing import NDArray
 from colladaphy.columns.texts import Ranges, factors_of, plain_numbers_of
 from colladaphy_schema.rows import Column
 
-__all__ = ["unsure"]
+__all__ = ["unsure", "unsure_texts"]
 
 Array = NDArray[Any]
 
@@ -20,14 +19,21 @@ _PART: Final = 1 << 13
 _FEW: Final = 200
 """Different texts of which each may be an example."""
 
+_END: Final = 1
+"""A byte behind each text that no document holds."""
 _NAME: Final = rb"[A-Za-z_][A-Za-z0-9_.-]*+"
+_COUNT: Final = rb"(?:0|[1-9][0-9]{0,8}+)"
 _FORMS: Final = {
-    "name": re.compile(rb"(?:" + _NAME + rb"\n)*+"),
-    "address": re.compile(rb"(?:#?+[A-Za-z0-9_.-]++(?:/[A-Za-z0-9_.-]++)*+\n)*+"),
-    "fragment": re.compile(rb"(?:#" + _NAME + rb"\n)*+"),
-    "integer": re.compile(rb"(?:[1-9][0-9]{0,8}+\n|0\n)*+"),
-    "integers": re.compile(rb"(?:(?:0|[1-9][0-9]{0,8}+)[ \n])*+"),
+    form: re.compile(rb"(?:%b\x01)*+" % pattern)
+    for form, pattern in {
+        "name": _NAME,
+        "fragment": b"#" + _NAME,
+        "anyURI": rb"#?+[A-Za-z0-9_.-]++(?:/[A-Za-z0-9_.-]++)*+",
+        "integer": _COUNT,
+        "integers": rb"[ \t\r\n]*+(?:" + _COUNT + rb"(?:[ \t\r\n]++|(?=\x01)))*+",
+    }.items()
 }
+_FORM_OF_RESTRICTION: Final = {"(#(.*))": "fragment", "anyURI": "anyURI"}
 _NUMBERS: Final = re.compile(
     rb"[ \t\r\n]*+(?:[+-]?+[0-9]++(?:\.[0-9]++)?+(?:[eE][+-]?+[0-9]{1,2}+)?+(?:[ \t\r\n]++|\Z))*+"
 )
@@ -41,22 +47,67 @@ def unsure(ranges: Ranges, column: Column[Any] | None) -> Array:
     """
     if not len(ranges):
         return np.zeros(0, np.int64)
-    if ranges.all_equal():
+    if ranges.all_equal() or (column is not None and _is_anything(column)):
         return np.zeros(1, np.int64)
-    find = None
-    if column is not None:
-        restriction = column.restriction
-        if not restriction and not column.tokens and column.kind in _ANYTHING:
-            return np.zeros(1, np.int64)
-        find = _PATTERNS.get(restriction) if restriction else _FINDERS.get(column.kind)
-    if find is None or column is None:
+    form = None if column is None else _form(column)
+    if form is None or column is None:
         return factors_of(ranges)[1]
     few = factors_of(ranges.part(0, _FEW))[1]
     if len(few) < _FEW // 4:
         found = factors_of(ranges)[1]
         if len(found) < _FEW:
             return found
-    return np.concatenate([np.zeros(1, np.int64), find(ranges, column)])
+    if form == "floats":
+        found = _floats(ranges, column)
+    elif _FORMS[form].fullmatch(ranges.joined(_END)) is not None:
+        found = _NONE
+    else:
+        found = _unlike(form, ranges.texts())
+    return np.append(found, 0)
+
+
+def unsure_texts(texts: list[str], column: Column[Any]) -> Array:
+    """The same for texts that are to be written; of lists the items are parted by blanks."""
+    if _is_anything(column):
+        return _NONE
+    form = _form(column)
+    if form is not None and form != "floats":
+        parts = [text.encode("utf-8", "replace") for text in texts]
+        if _FORMS[form].fullmatch(b"".join(part + b"\1" for part in parts)) is not None:
+            return _NONE
+        return _unlike(form, parts)
+    first: dict[str, int] = {}
+    for row, text in enumerate(texts):
+        first.setdefault(text, row)
+    return np.array(list(first.values()), np.int64)
+
+
+_NONE: Final = np.zeros(0, np.int64)
+
+
+def _is_anything(column: Column[Any]) -> bool:
+    return column.kind in _ANYTHING and not (column.restriction or column.tokens)
+
+
+def _form(column: Column[Any]) -> str | None:
+    """What texts of a column look like that are valid for certain; None if that is not known."""
+    if column.tokens:
+        if column.restriction or column.kind not in ("float", "integer"):
+            return None
+        if column.kind == "integer":
+            return "integers" if column.width is None else None
+        return "floats"
+    if column.restriction:
+        return _FORM_OF_RESTRICTION.get(column.restriction)
+    return {"float": "floats", "integer": "integer", "name": "name"}.get(column.kind)
+
+
+def _unlike(form: str, texts: list[bytes]) -> Array:
+    """Rows of texts that are not of a form."""
+    pattern = _FORMS[form]
+    return np.array(
+        [row for row, text in enumerate(texts) if pattern.fullmatch(text + b"\1") is None], np.int64
+    )
 
 
 def _floats(ranges: Ranges, column: Column[Any]) -> Array:
@@ -78,9 +129,6 @@ def _floats(ranges: Ranges, column: Column[Any]) -> Array:
     return np.concatenate([_NONE, *found])
 
 
-_NONE: Final = np.zeros(0, np.int64)
-
-
 def _unusual(ranges: Ranges, width: int | None) -> Array:
     """Rows of lists that are not of numbers as everybody spells them, or not of `width`."""
     return np.array(
@@ -92,33 +140,3 @@ def _unusual(ranges: Ranges, width: int | None) -> Array:
         ],
         np.int64,
     )
-
-
-def _matching(form: str) -> Callable[[Ranges, Column[Any]], Array]:
-    pattern = _FORMS[form]
-
-    def find(ranges: Ranges, column: Column[Any]) -> Array:
-        if column.tokens and form != "integers":
-            return np.arange(len(ranges))
-        if pattern.fullmatch(ranges.joined(10)) is not None:
-            return np.zeros(0, np.int64)
-        return np.array([row for row, text in enumerate(ranges.texts())
-                         if pattern.fullmatch(text + b"\n") is None], np.int64)  # fmt: skip
-
-    return find
-
-
-def _integers(ranges: Ranges, column: Column[Any]) -> Array:
-    if column.tokens and column.width is not None:
-        return np.arange(len(ranges))
-    return _INTEGERS[column.tokens](ranges, column)
-
-
-_INTEGERS: Final = {False: _matching("integer"), True: _matching("integers")}
-_FINDERS: Final = {
-    "float": _floats,
-    "integer": _integers,
-    "name": _matching("name"),
-}
-_PATTERNS: Final = {"(#(.*))": _matching("fragment"), "anyURI": _matching("address")}
-"""By the restrictions of the schema's types."""

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from colladaphy.columns.writing import document_bytes
 from colladaphy.errors import SchemaError
-from colladaphy.mapper.storing.checking import faults_of, has_unique_ids
+from colladaphy.mapper.storing.checking import faults_of, has_unique_ids, is_sure
 from colladaphy.mapper.storing.document import columns_of, motion_columns, world_columns
 from colladaphy_schema.codec import paused_collector
 
@@ -26,8 +26,9 @@ def store(world: World, options: WriteOptions | None = None) -> bytes:
         columns = columns_of(world, options)
         unique_ids = has_unique_ids(columns)
         data = document_bytes(columns)
+        sure = is_sure(columns, data)
         del columns  # the parser can use the memory
-        faults = faults_of(data, unique_ids=unique_ids)
+        faults = faults_of(data, unique_ids=unique_ids, sure=sure)
     if faults:
         raise SchemaError(faults)
     _log.info("stored %d bodies, %d joints in %d bytes", len(world.bodies), len(world.joints),

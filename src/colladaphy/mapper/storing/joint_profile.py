@@ -51,6 +51,7 @@ def joint_profile(
     rows.angular_limits = _limits(values["angular_limits"], ~exact | full)
     turning = differs(values["angular_springs"], np.zeros(3))
     rows.angular_spring = _spring(values["angular_springs"], turning)
+    rows.motor = _motors(values["motors"])
     if full:
         rows.linear_limits = _limits(values["linear_limits"], np.ones(len(rows), np.bool_))
         shifting = differs(values["linear_springs"], np.zeros(3))
@@ -82,6 +83,12 @@ def _limits(limits: Array, there: Array) -> pe.LimitsTypeRows:
     rows, index = where_there(pe.LimitsTypeRows, there)
     rows.min = limits[index, 0]
     rows.max = limits[index, 1]
+    return rows
+
+
+def _motors(motors: Array) -> pe.MotorTypeRows:
+    rows, index = where_there(pe.MotorTypeRows, differs(motors, np.zeros(2)))
+    rows.speed, rows.strength = motors[index, 0], motors[index, 1]
     return rows
 
 
