@@ -26,6 +26,8 @@ Validator = Callable[[etree._ElementTree], list[Complaint]]
 _Kept = dict[etree._Element, list[etree._Element]]
 
 _WIDE = 4000
+_BLOCK = 1000
+"""How many children are validated together: fewer cost more copies, more cost longer paths."""
 _SAMPLE = (40, 300)
 """How many children are tried: one in a hundred, but at least and at most so many."""
 _FEW = 5000
@@ -64,8 +66,8 @@ def validate_in_blocks(
     complaints: dict[Complaint, None] = {}
     for parent in parents:
         children = _children(parent)
-        for start in range(0, len(children), _WIDE):
-            block = set(children[start : start + _WIDE])
+        for start in range(0, len(children), _BLOCK):
+            block = set(children[start : start + _BLOCK])
             kept = thin | {parent: _merge(parent, thin[parent], block)}
             complaints |= dict.fromkeys(_validate_reduced(tree, kept, validate))
     return list(complaints)

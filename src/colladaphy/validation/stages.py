@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from colladaphy.errors import DocumentError, InputError, XmlError
 from colladaphy.findings import Report, Severity, unchanging
-from colladaphy.gate import accepts, gate
+from colladaphy.gate import gate
 from colladaphy.gate.faults import violations
 from colladaphy.gate.messages import Violation
 from colladaphy.gate.numerals import incomplete_violations
@@ -22,6 +22,8 @@ from colladaphy.validation.availability import availability
 from colladaphy.validation.options import Options
 
 if TYPE_CHECKING:
+    from colladaphy.columns.accepting import Verdict
+    from colladaphy.columns.reading import Document as Columns
     from lxml import etree
 
     from colladaphy.validation.behind import Came
@@ -61,9 +63,10 @@ def validate(
         file = next((finding.file for finding in error.findings if finding.file), None)
         return Report(file, list(error.findings))
     report = Report(loaded.file)
-    if len(loaded.data) >= _LARGE and accepts(loaded.data, limits):
+    verdict = _verdict(loaded, limits)
+    if verdict is not None and verdict.accepted:
         # Nothing is wrong with it up to here, and no tree is needed to know it.
-        _check_valid(report, loaded, None)
+        _check_valid(report, loaded, None, verdict.columns)
     else:
         try:
             tree = parse_loaded(loaded).tree
@@ -78,8 +81,9 @@ def validate(
             _check_valid(report, loaded, tree)
         else:
             from colladaphy.validation.behind import check_behind
+            from colladaphy_schema.codec import paused_collector
 
-            with unchanging():
+            with unchanging(), paused_collector():
                 family: dict[str, Resource] = {}
                 report.extend(check_behind(_came(loaded, tree, family), deviations, options))
                 _check_others(report, loaded, family)
@@ -110,13 +114,27 @@ def _deviations(
     return violations(tree, fresh=True) + incomplete_violations(tree, data)
 
 
-def _check_valid(report: Report, loaded: Loaded, tree: etree._ElementTree | None) -> None:
+def _verdict(loaded: Loaded, limits: Limits) -> Verdict | None:
+    """What is known of a document without a tree; None where a tree costs less."""
+    if len(loaded.data) < _LARGE:
+        return None
+    from colladaphy.columns.accepting import judge
+
+    return judge(loaded.data, limits)
+
+
+def _check_valid(
+    report: Report,
+    loaded: Loaded,
+    tree: etree._ElementTree | None,
+    columns: Columns | None = None,
+) -> None:
     from colladaphy.meaning import findings_of, hits_of
     from colladaphy.validation.mendable import is_mendable
 
     family: dict[str, Resource] = {}
     with unchanging():
-        resource = _resource(loaded, tree, family)
+        resource = _resource(loaded, tree, family, columns=columns)
         hits = hits_of(resource, availability(loaded))
         if resource.has_other_spelling or any(map(is_mendable, hits)):
             from colladaphy.validation.behind import check_meaning
@@ -172,6 +190,7 @@ def _resource(
     family: dict[str, Resource],
     *,
     changed: bool = False,
+    columns: Columns | None = None,
 ) -> Resource:
     """A document, and the way to those that it refers to, which have to be valid too.
 
@@ -195,5 +214,6 @@ def _resource(
 
     data = None if changed else loaded.data
     made = Resource(tree, data, parser=lambda: parse_loaded(loaded).tree, file=loaded.file,
-                    report=Report(loaded.file), opener=opener, family=family)  # fmt: skip
+                    report=Report(loaded.file), opener=opener, family=family,
+                    columns=columns)  # fmt: skip
     return made
