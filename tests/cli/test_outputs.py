@@ -324,3 +324,90 @@ def test_archives_keep_what_they_hold(cli: Runner, tmp_path: Path) -> None:
     assert cli("convert", source, tmp_path / "out.zae").code == 0
     archive = parse(tmp_path / "out.zae").archive
     assert archive is not None and "x/not-referred-to.png" in archive.names
+
+
+# --- units, axes, kinematics, limits
+
+
+CENTIMETRES = collada(
+    model(body()),
+    scene(
+        instance(values="<velocity>100 200 300</velocity>"), values="<gravity>0 -981 0</gravity>"
+    ),
+    '<node id="n"><translate>400 500 600</translate></node><node id="k"><instance_light url="#l"/>'
+    "</node>",
+    unit='<unit name="centimeter" meter="0.01"/>',
+    up_axis="X_UP",
+).replace(
+    b"<library_physics_models>",
+    b'<library_lights><light id="l"><technique_common><ambient><color>1 1 1</color></ambient>'
+    b"</technique_common></light></library_lights><library_physics_models>",
+)
+
+
+def test_si_and_up_axis(cli: Runner, tmp_path: Path) -> None:
+    import json
+
+    import colladaphy
+
+    source, out = tmp_path / "in.dae", tmp_path / "out.dae"
+    source.write_bytes(CENTIMETRES)
+    asked = ["--si", "--up-axis", "Z_UP"]
+    facts = json.loads(cli("info", source, "--format", "json", *asked).out)["world"]
+    assert facts["unit"]["meter"] == 1.0 and facts["up_axis"] == "Z_UP"
+    assert facts["reach"] == [[-5.0, -6.0, 4.0]] * 2 and facts["gravity"] == [9.81, 0.0, 0.0]
+    plain = json.loads(cli("info", source, "--format", "json").out)["world"]
+    assert plain["unit"]["meter"] == 0.01 and plain["reach"] == [[400.0, 500.0, 600.0]] * 2
+    converted = cli("convert", source, out, *asked)
+    assert converted.code == 0 and "<library_lights> was left out" in converted.err
+    simulated = tmp_path / "end.dae"
+    run = cli("simulate", source, simulated, "--steps", 0, "--engine", "mujoco", *asked)
+    assert run.code == 0 and "World alone" in run.err
+    for file in (out, simulated):
+        document = colladaphy.read(file)
+        assert document.unit[1] == 1.0 and document.up_axis == "Z_UP"
+        (made,) = document.load().bodies
+        assert made.position.tolist() == [-5.0, -6.0, 4.0]
+        assert made.linear_velocity.tolist() == [-2.0, -3.0, 1.0]
+        assert made.dimensions[0] == 0.01
+
+
+def test_losses_are_counted_once(cli: Runner, tmp_path: Path) -> None:
+    source = tmp_path / "in.dae"
+    source.write_bytes(bodies("1", "0"))
+    result = cli("convert", source, tmp_path / "out.dae", "--up-axis", "Y_UP")
+    assert result.err.splitlines()[-1].endswith("warning: 1 of 2 bodies cannot be loaded.")
+
+
+def test_kinematics_are_an_option(cli: Runner, tmp_path: Path) -> None:
+    import colladaphy
+    from colladaphy.world import World
+
+    world = World()
+    ends = [world.create_box(uid, (2 * uid, 0, 0), (1, 1, 1), "iron") for uid in (1, 2)]
+    world.attach_hinge_joint(*ends, axis=(0, 0, 1))
+    source, out = tmp_path / "in.dae", tmp_path / "out.dae"
+    colladaphy.write(world, source)
+    assert b"kinematics" not in source.read_bytes()
+    assert cli("convert", source, out, "--kinematics").code == 0
+    assert b"<kinematics_model" in out.read_bytes()
+    assert "robot" in cli("info", out).out
+    assert [joint.kind for joint in colladaphy.read(out).load().joints] == [world.joints[0].kind]
+
+
+def test_simulate_takes_limits_and_conventions(cli: Runner, tmp_path: Path) -> None:
+    source, out = tmp_path / "in.dae", tmp_path / "out.dae"
+    long = b"<!--" + b"x" * 11_000_000 + b"--></COLLADA>"
+    source.write_bytes(simple().replace(b"</COLLADA>", long))
+    arguments = ["simulate", source, out, "--engine", "mujoco", "--steps", 4,
+                 "--checkpoint-every", 2]  # fmt: skip
+    refused = cli(*arguments)
+    assert refused.code == 1 and "--limit text=" in refused.err
+    assert cli(*arguments, "--limit", "text=12000000").code == 0
+    # The checkpoints hold all of IN, and are read within the same limits.
+    more = [*arguments, "--resume", "--limit", "text=12000000"]
+    assert cli(*more).code == 0
+    source.write_bytes(OLD)
+    assert cli("simulate", source, "--steps", 0, "--engine", "mujoco").code == 1
+    mended = cli("simulate", source, "--steps", 0, "--engine", "mujoco", "--convention", "none")
+    assert mended.code == 0

@@ -8,7 +8,14 @@ import click
 
 from colladaphy.cli.batch import run_jobs
 from colladaphy.cli.console import EXIT_FINDINGS, note, note_changes
-from colladaphy.cli.files import convention_option, limits_option, refuse_same, source_of, target_of
+from colladaphy.cli.files import (
+    convention_option,
+    limits_option,
+    refuse_same,
+    source_of,
+    target_of,
+    units_options,
+)
 from colladaphy.cli.outputs import Job, jobs_of, output_options
 from colladaphy.cli.reporting import write_reports
 
@@ -36,6 +43,10 @@ __all__ = ["command"]
     show_default=True,
     help="Who will read it: readers of COLLADA 1.5, of 1.4.1, or Bullet's converter (1.4.1).",
 )
+@click.option(
+    "--kinematics", is_flag=True, help="Write joints as kinematics, too, for readers of robots."
+)
+@units_options
 @click.option("--strict", is_flag=True, help="Exit with 1 where bodies of IN are lost.")
 @convention_option
 @limits_option
@@ -47,6 +58,9 @@ def command(
     force: bool,
     report_file: str | None,
     reader: Target | Literal["collada"],
+    kinematics: bool,
+    si: bool,
+    up_axis: str | None,
     strict: bool,
     convention: str,
     limits: Limits | None,
@@ -55,8 +69,13 @@ def command(
 
     Several IN, or a folder, are written into the folder that -o names. OUT without -o is for one
     IN, and must not exist. Files that IN refers to, such as models and images, are taken along
-    to another folder. What was changed goes to standard error, or to the FILE of --report (as
-    JSON where its name ends in .json). An OUT is written as a whole or not at all.
+    to another folder.
+
+    With --si, --up-axis and --kinematics, OUT is the World of IN alone, written anew; what else
+    IN holds is left out, and said to be.
+
+    What was changed goes to standard error, or to the FILE of --report (as JSON where its name
+    ends in .json). An OUT is written as a whole or not at all.
     """
     jobs = jobs_of(names, output, in_place=in_place, force=force)
     if report_file is not None:
@@ -68,6 +87,8 @@ def command(
         from colladaphy.validation.mending import backup, mend
 
         mended = mend(source_of(job.source), convention=convention, limits=limits)
+        if si or up_axis is not None or kinematics:
+            mended = mended.as_world(convention, si=si, up_axis=up_axis, kinematics=kinematics)
         report = mended.report
         data = None
         if reader != "collada":

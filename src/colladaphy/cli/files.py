@@ -21,6 +21,7 @@ __all__ = [
     "refuse_same",
     "source_of",
     "target_of",
+    "units_options",
 ]
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -89,6 +90,18 @@ def _convention(_: click.Context, __: click.Parameter, value: str) -> str:
     if value not in names:
         raise click.BadParameter(f"{value!r} is not one of {', '.join(['auto', 'none', *names])}.")
     return value
+
+
+def units_options(function: _Function) -> _Function:
+    """The options ``--si`` and ``--up-axis``: in which unit and axes a World is wanted."""
+    function = click.option(
+        "--up-axis",
+        type=click.Choice(["X_UP", "Y_UP", "Z_UP"]),
+        help="Turn the World so that this axis is up.",
+    )(function)
+    return click.option("--si", is_flag=True, help="Lengths in metres, whatever the unit is.")(
+        function
+    )
 
 
 def limits_option(function: _Function) -> _Function:

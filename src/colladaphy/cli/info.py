@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from colladaphy.cli.console import EXIT_FINDINGS, note, say
-from colladaphy.cli.files import convention_option, format_option, limits_option, source_of
+from colladaphy.cli.files import (
+    convention_option,
+    format_option,
+    limits_option,
+    source_of,
+    units_options,
+)
 
 if TYPE_CHECKING:
     from colladaphy.source.limits import Limits
@@ -22,16 +28,19 @@ __all__ = ["command"]
 @format_option
 @convention_option
 @limits_option
-def command(file: str, form: str, convention: str, limits: Limits | None) -> int:
+@units_options
+def command(
+    file: str, form: str, convention: str, limits: Limits | None, si: bool, up_axis: str | None
+) -> int:
     """Show what a document of any version holds.
 
     Shown are the counts of the file as it stands, its physics scenes and models, and the World
-    that its instantiated scenes make: the bodies that can be represented, and those that are
-    skipped.
+    that its instantiated scenes make, in the document's unit and axes or in those that are asked
+    for: the bodies that can be represented, and those that are skipped.
     """
     from colladaphy.validation.statistics import describe
 
-    facts = describe(source_of(file), convention=convention, limits=limits)
+    facts = describe(source_of(file), convention=convention, limits=limits, si=si, up_axis=up_axis)
     if form == "json":
         say(json.dumps(facts, indent=2))
     else:
@@ -88,6 +97,12 @@ def _scene(scene: dict[str, Any]) -> Iterator[str]:
 
 def _world(world: dict[str, Any]) -> Iterator[str]:
     yield "world"
+    unit = world["unit"]
+    yield f"  unit: {unit['name']} ({unit['meter']} m), up axis: {world['up_axis']}"
+    yield f"  gravity: {' '.join(str(value) for value in world['gravity'])}"
+    if world["reach"] is not None:
+        low, high = (" ".join(f"{value:g}" for value in end) for end in world["reach"])
+        yield f"  positions: {low} to {high}, mass: {world['mass']:g} kg"
     yield f"  bodies: {world['bodies']} ({_list(world['kinds'])}), fixed: {world['fixed']}"
     yield f"  unions: {world['unions']} (members: {_list(world['members'])})"
     yield f"  joints: {_list(world['joints'])}"

@@ -16,13 +16,21 @@ import click
 
 import colladaphy
 from colladaphy.cli.console import note, say
-from colladaphy.cli.files import refuse_same, source_of, target_of
+from colladaphy.cli.files import (
+    convention_option,
+    limits_option,
+    refuse_same,
+    source_of,
+    target_of,
+    units_options,
+)
 from colladaphy.cli.progress import Bar, waiting
 
 if TYPE_CHECKING:
     from colladaphy.document import Document
     from colladaphy.engines import Checkpoints, Engine, Simulation, Summary, Trajectory
     from colladaphy.findings import Finding
+    from colladaphy.source.limits import Limits
     from colladaphy.world import World
 
 __all__ = ["command"]
@@ -98,6 +106,9 @@ _TRAJECTORIES = (".npz", ".zarr")
     metavar="K",
     help="Record every K steps.",
 )
+@convention_option
+@limits_option
+@units_options
 def command(
     source: str,
     target: str | None,
@@ -112,11 +123,16 @@ def command(
     resume: bool,
     trajectory: str | None,
     trajectory_every: int,
+    convention: str,
+    limits: Limits | None,
+    si: bool,
+    up_axis: str | None,
 ) -> int:
     """Run the World of the document IN, and write what became of it to OUT.
 
     OUT, and every checkpoint, is IN with the World written back into it: cameras, lights, visuals
-    and all else of IN is still there.
+    and all else of IN is still there. With --si or --up-axis, they are the World alone. With
+    --convention, IN is mended as it is read; without, it has to be valid.
 
     Interrupted (Ctrl-C or a polite kill), it writes a checkpoint and says how to go on; the run
     that is resumed equals the run that was not interrupted, to the last bit, if both write their
@@ -126,20 +142,31 @@ def command(
 
     _check_outputs(source, target, trajectory)
     chosen = _engine(engine, settings)
-    document, world = _read(source)
+    named = click.get_current_context().get_parameter_source("convention")
+    repair = named is click.core.ParameterSource.COMMANDLINE
+    document, world = _read(source, convention if repair else None, limits, si, up_axis)
+    # In another unit or other axes, the document's nodes and meshes are not the World's.
+    alone = (world.unit_meter, world.up_axis) != (document.unit[1], document.up_axis)
+    if alone:
+        note("warning: In another unit or other axes, OUT and checkpoints are the World alone.")
     goal = world.step_count + steps
     checkpoints = _series(source, folder, keep, resume=resume, begin=bool(interval))
     if resume:
         with waiting("Setting up the engine"):
-            simulation = Simulation.resume(checkpoints.folder, chosen, dt, seed)
+            simulation = Simulation.resume(checkpoints.folder, chosen, dt, seed, limits=limits)
         _tell(simulation.report.findings)
-        if _is_same(world, simulation.world):
+        if _is_same(world, simulation.world) and not alone:
             simulation.document = document
         note(f"Resumed at step {simulation.world.step_count}.")
     else:
         with waiting("Setting up the engine"):
             simulation = Simulation(
-                world, chosen, dt, seed, document=document, on_finding=_announce
+                world,
+                chosen,
+                dt,
+                seed,
+                document=None if alone else document,
+                on_finding=_announce,
             )
         _tell(simulation.report.findings)
     before = simulation.world.step_count
@@ -206,7 +233,9 @@ def _series(
 def _write(simulation: Simulation, source: str, target: str) -> None:
     """Write the World back into the document, or by itself where that would lose other files."""
     document, world = simulation.document, simulation.world
-    assert document is not None
+    if document is None:
+        colladaphy.write(world, target_of(target))
+        return
     folders = {Path(file).resolve().parent for file in (source, target)}
     if document.related and len(folders) > 1:
         others = ", ".join(Path(file).name for file in document.related)
@@ -334,13 +363,20 @@ def _beside(source: str) -> str:
     return str(Path(source).with_suffix(".checkpoints"))
 
 
-def _read(source: str) -> tuple[Document, World]:
+def _read(
+    source: str, convention: str | None, limits: Limits | None, si: bool, up_axis: str | None
+) -> tuple[Document, World]:
     with waiting(f"Reading {source}"):
-        document = colladaphy.read(source_of(source))
+        document = colladaphy.read(
+            source_of(source),
+            repair=convention is not None,
+            convention=convention or "auto",
+            limits=limits,
+        )
     _tell(document.report.findings)
     known = len(document.report)
     with waiting(f"Loading {source}"):
-        world: World = document.load()
+        world: World = document.load(si=si, up_axis=up_axis)
     _tell(document.report.findings[known:])
     return document, world
 

@@ -34,4 +34,12 @@ INEXACT = Rule(
     section="colladaphy.Document.update",
     why="A run that is resumed from it goes on a little differently.",
 )
-RULES = (NODE, COPIED, INEXACT)
+ALONE = Rule(
+    "store-world-alone",
+    _WARNING,
+    "The World was written as a document of its own, without what else the document held.",
+    "Without --si, --up-axis and --kinematics, all of the document is kept.",
+    section="colladaphy convert",
+    why="In another unit or other axes, only bodies and joints are known to be right.",
+)
+RULES = (NODE, COPIED, INEXACT, ALONE)

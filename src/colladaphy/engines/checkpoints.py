@@ -26,6 +26,7 @@ from colladaphy.errors import ColladaError, EngineError
 from colladaphy.findings import Finding, Severity
 
 if TYPE_CHECKING:
+    from colladaphy.source import Limits
     from colladaphy.world import World
 
 __all__ = ["Checkpoints", "Found", "open_checkpoint", "read_checkpoint"]
@@ -64,8 +65,8 @@ def read_checkpoint(path: str | os.PathLike[str]) -> World:
     return open_checkpoint(path).world
 
 
-def open_checkpoint(path: str | os.PathLike[str]) -> Found:
-    """A checkpoint, proven to be what was written.
+def open_checkpoint(path: str | os.PathLike[str], limits: Limits | None = None) -> Found:
+    """A checkpoint, proven to be what was written, within the limits of reading.
 
     EngineError (``engine-checkpoint-broken``) says why a file is not whole: it cannot be read, is
     not schema-valid, or its content does not fit its checksum. A scene without an engine's state is
@@ -75,7 +76,7 @@ def open_checkpoint(path: str | os.PathLike[str]) -> Found:
 
     shown = os.fsdecode(path)
     try:
-        document = read(path)
+        document = read(path, limits=limits)
         world: World = document.load()
     except ColladaError as error:
         reason = error.findings[0].message if error.findings else str(error)
@@ -150,7 +151,7 @@ class Checkpoints:
         self._sweep()
         return path
 
-    def newest(self) -> Found:
+    def newest(self, limits: Limits | None = None) -> Found:
         """The newest checkpoint that is whole; findings name those that are not.
 
         EngineError if there is none, with the findings of all that were looked at.
@@ -158,7 +159,7 @@ class Checkpoints:
         passed: list[Finding] = []
         for path in reversed(self.paths()):
             try:
-                found = open_checkpoint(path)
+                found = open_checkpoint(path, limits)
             except EngineError as error:
                 passed += (
                     CHECKPOINT_BROKEN.at(message=f.message, file=f.file) for f in error.findings

@@ -31,6 +31,7 @@ from colladaphy.findings import Finding, Report, Severity
 if TYPE_CHECKING:
     from colladaphy.engines.observers import Observer
     from colladaphy.engines.protocol import Contact, Engine
+    from colladaphy.source import Limits
     from colladaphy.world import EngineState, World
 
 __all__ = ["DEFAULT_TIME_STEP", "Simulation"]
@@ -117,6 +118,7 @@ class Simulation:
         on_contact: Callable[[ContactEvent], object] | None = None,
         on_finding: Callable[[Finding], object] | None = None,
         document: SceneDocument | None = None,
+        limits: Limits | None = None,
     ) -> Self:
         """Go on from a checkpoint, or from the newest one that is whole in a folder.
 
@@ -124,9 +126,13 @@ class Simulation:
         in the same version goes on to the last bit. Another one goes on from the World, with a
         finding. EngineError if there is no checkpoint that is whole (those that are not are in the
         report), or if the engine that wrote it is not there and no other one is named. Without a
-        `document` the checkpoint's own is taken, if there is more in it than the World.
+        `document` the checkpoint's own is taken, if there is more in it than the World. `limits`
+        are those of reading; what one of them keeps from being read is no fault of the file.
         """
-        found = Checkpoints(source).newest() if Path(source).is_dir() else open_checkpoint(source)
+        if Path(source).is_dir():
+            found = Checkpoints(source).newest(limits)
+        else:
+            found = open_checkpoint(source, limits)
         world, passed = found.world, found.findings
         state = world.engine_state
         if state is not None and engine in ("auto", state.engine):

@@ -120,7 +120,11 @@ def _convert(world: World, change: Conversion) -> None:
 
 
 def _turned(turn: Array, vectors: Array, turns: bool) -> Array:
-    return np.asarray(rotations.rotate(turn, vectors)) if turns else vectors
+    """Vectors (…, 3) turned: up axes change places, so that every digit of them stays."""
+    if not turns:
+        return vectors
+    axes = np.rint(rotations.to_matrix(turn))
+    return np.asarray(vectors[..., np.abs(axes).argmax(axis=1)] * axes.sum(axis=1) + 0.0)
 
 
 def _scale_materials(world: World, scale: float) -> None:

@@ -14,6 +14,7 @@ from lxml import etree
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Report
 from colladaphy.gate import gate
+from colladaphy.links.names import local_name
 from colladaphy.source import (
     Limits,
     Parsed,
@@ -41,6 +42,8 @@ class Mended:
     report: Report
     settled: Document | None = None
     """The document, where it is known that nothing was to be changed in it."""
+    alone: bool = False
+    """Whether the tree is a World's own, which refers to nothing."""
 
     def save(
         self,
@@ -60,7 +63,7 @@ class Mended:
         if data is None:
             data = serialise(self.tree)
         others = None
-        if isinstance(target, str) and not self._is_home(target):
+        if isinstance(target, str) and not self.alone and not self._is_home(target):
             others = companions_of(self.parsed, self.tree, render or _mended)
             self.report.extend(others.findings)
         packed = packed_for(target, data, self.parsed.archive, self.parsed.member,
@@ -90,16 +93,47 @@ class Mended:
             for tree in (self.tree, self.parsed.tree)
         )
 
+    def document(self, convention: str = "auto") -> Document:
+        """The document that it became."""
+        from colladaphy.document.api import document_of_mended
+
+        if self.settled is not None:
+            return self.settled
+        return document_of_mended(self.parsed, self.tree, convention=convention)
+
+    def as_world(
+        self, convention: str = "auto", *, si: bool, up_axis: str | None, kinematics: bool
+    ) -> Mended:
+        """The World of the document as a document of its own, in another unit or other axes.
+
+        What else the document holds is named in the report.
+        """
+        from colladaphy.document.rules import ALONE
+        from colladaphy.mapper import WriteOptions, store
+
+        document = self.document(convention)
+        world = document.load(si=si, up_axis=up_axis)
+        self.report.extend(document.report)
+        data = store(world, WriteOptions(kinematics=kinematics))
+        tree = etree.ElementTree(etree.fromstring(data, etree.XMLParser(huge_tree=True)))
+        kept = {child.tag for child in tree.getroot()}
+        left = [child for child in self.tree.getroot().iterchildren(etree.Element)
+                if child.tag not in kept and len(child)]  # fmt: skip
+        for child in left:
+            message = f"<{local_name(child.tag)}> was left out."
+            self.report.add(ALONE.at(child, message))
+        return Mended(self.parsed, tree, self.report, document, alone=True)
+
     def bodies(self, convention: str = "auto") -> tuple[int, int]:
         """How many bodies the World of the document has, and how many it should have but lacks."""
-        from colladaphy.document.api import document_of_mended
         from colladaphy.validation.statistics import skipped_bodies
 
-        document = self.settled
-        if document is None:
-            document = document_of_mended(self.parsed, self.tree, convention=convention)
+        document = self.document(convention)
+        known = len(document.report)
         world = document.load()
-        lost = skipped_bodies([*self.report, *document.report])
+        # What the World lacked when it was written is told already.
+        new = [] if self.alone else document.report.findings[known:]
+        lost = skipped_bodies([*self.report, *new])
         return len(world.bodies), len(lost)
 
 

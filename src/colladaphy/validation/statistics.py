@@ -60,14 +60,20 @@ _UNLINKED = frozenset(
 
 
 def describe(
-    source: Source, *, convention: str = "auto", limits: Limits | None = None
+    source: Source,
+    *,
+    convention: str = "auto",
+    limits: Limits | None = None,
+    si: bool = False,
+    up_axis: str | None = None,
 ) -> dict[str, Any]:
     """Facts about a document of any version, as plain values.
 
     ``document`` counts what the file says, and lists the robots, which are its kinematics models;
     ``scenes`` lists its physics scenes with their models;
     ``world`` counts what could be loaded of the instantiated scenes, and lists what was skipped
-    and why. A file that cannot be mended has no ``scenes`` and no ``world``, but ``problems``.
+    and why; it is in the document's unit and axes, unless `si` asks for metres or `up_axis` for
+    another one. A file that cannot be mended has no ``scenes`` and no ``world``, but ``problems``.
     Raises InputError and XmlError as `colladaphy.read` does.
     """
     from colladaphy.document.api import settled_document
@@ -76,10 +82,10 @@ def describe(
     settled = settled_document(loaded, convention)
     if settled is None:
         parsed = parse_loaded(loaded, mend=True)
-        return _with_world(_facts(parsed), lambda: _mended(parsed, convention))
+        return _with_world(_facts(parsed), lambda: _mended(parsed, convention), si, up_axis)
     document, columns = settled
     facts = _facts_of_columns(loaded, document, columns)
-    return _with_world(facts, lambda: document)
+    return _with_world(facts, lambda: document, si, up_axis)
 
 
 def _facts(parsed: Parsed) -> dict[str, Any]:
@@ -149,13 +155,15 @@ def _facts_of_columns(loaded: Loaded, document: Document, columns: Columns) -> d
     }
 
 
-def _with_world(facts: dict[str, Any], read: Callable[[], Document]) -> dict[str, Any]:
+def _with_world(
+    facts: dict[str, Any], read: Callable[[], Document], si: bool, up_axis: str | None
+) -> dict[str, Any]:
     """The facts with the scenes, and with the World that comes of them."""
     facts |= {"scenes": None, "world": None, "problems": []}
     try:
         document = read()
         facts["scenes"] = [_scene(scene) for scene in document.scenes]
-        world = document.load()
+        world = document.load(si=si, up_axis=up_axis)
     except ColladaError as error:
         facts["problems"] = [str(finding) for finding in error.findings] or [str(error)]
         return facts
@@ -241,7 +249,15 @@ def _world(world: World, findings: list[Finding]) -> dict[str, Any]:
     joints = Counter(joint.kind.name.lower() for joint in world.joints)
     skipped = skipped_bodies(findings)
     unlinked = [finding for finding in findings if finding.code in _UNLINKED]
+    positions, solid = world.positions, world.kinds != int(Kind.PLANE)
     return {
+        "unit": {"name": world.unit_name, "meter": world.unit_meter},
+        "up_axis": world.up_axis,
+        "gravity": world.gravity.tolist(),
+        "mass": float(world.masses.sum()),
+        "reach": [positions[solid].min(axis=0).tolist(), positions[solid].max(axis=0).tolist()]
+        if solid.any()
+        else None,
         "bodies": len(world.bodies),
         "kinds": dict(sorted(bodies.items())),
         "unions": bodies["union"] + members["union"],
