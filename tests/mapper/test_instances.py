@@ -308,3 +308,57 @@ def test_scaled_nodes_are_reported() -> None:
     document = colladaphy.read(collada(model(body()), scene(instance()), nodes))
     assert document.load().bodies[0].position.tolist() == [2.0, 0.0, 0.0]
     assert "link-not-rigid" in [finding.code for finding in document.report]
+
+
+def test_a_file_is_one_by_whatever_way_it_is_found(tmp_path: Path) -> None:
+    """The way there may lead out of a folder and in again."""
+    nodes = '<node id="n"><translate>2 0 0</translate><instance_node url="../main.dae#l"/></node>'
+    inner = collada(
+        "", "", nodes, effects=(), library_nodes='<node id="k"><translate>0 0 1</translate></node>'
+    )
+    main = collada(
+        model(body("a"), body("b")),
+        scene(instance("a", "#l"), instance("b", "sub/inner.dae#k")),
+        '<node id="top"><translate>1 0 0</translate><instance_node url="sub/../sub/inner.dae#k"/>'
+        "</node>",
+        library_nodes='<node id="l"><translate>0 3 0</translate></node>',
+    )
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "main.dae").write_bytes(main)
+    (tmp_path / "sub" / "inner.dae").write_bytes(inner)
+    document = colladaphy.read(tmp_path / "main.dae")
+    assert document.load().positions.tolist() == [[2.0, 3.0, 0.0], [1.0, 0.0, 1.0]]
+    assert len(document.related) == 1
+
+
+def test_other_files_may_lead_back(tmp_path: Path) -> None:
+    """What they lead back to is the document itself, not a second copy of it."""
+    other = collada(
+        model(body("b"), id="far"),
+        scene(id="none", url="#far"),
+        "",
+        library_nodes='<node id="lent"><translate>0 0 7</translate>'
+        '<instance_node url="main.dae#within"/></node>',
+        effects=(),
+    )
+    main = collada(
+        "",
+        scene(instance("b", "#within"), url="other.dae#far"),
+        '<node id="host"><translate>1 0 0</translate><instance_node url="other.dae#lent"/></node>',
+        library_nodes='<node id="within"><translate>0 3 0</translate></node>',
+    )
+    (tmp_path / "main.dae").write_bytes(main)
+    (tmp_path / "other.dae").write_bytes(other)
+    from colladaphy.source import pack
+
+    archive = pack(main, name="main.dae", others={"other.dae": other})
+    for source in (tmp_path / "main.dae", archive):
+        document = colladaphy.read(source)
+        world = document.load()
+        assert world.positions.tolist() == [[1.0, 3.0, 7.0]]
+        assert {finding.code for finding in document.report} == {"load-material-assumed"}
+        assert len(document.related) == 1
+        world.positions += (0, 0, 1)  # and where the document is changed, they lead to the change
+        document.update(world)
+        assert document.load().positions.tolist() == [[1.0, 3.0, 8.0]]
+        assert len(document.related) == 1

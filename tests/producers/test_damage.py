@@ -7,21 +7,21 @@ from random import Random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.producers import flat, robots
 from tests.producers.checking import accept
 from tests.producers.damage import damaged
-from tests.producers.flat import PRODUCERS
 from tests.producers.test_flat import example as flat_example
 from tests.producers.test_robots import example as robot_example
 
 from colladaphy.errors import ColladaError
+from colladaphy.testing.producers import flat, habits, robots
+from colladaphy.testing.producers.habits import PRODUCERS
 
 
 def _files() -> dict[str, bytes]:
     quirks = frozenset({"binds", "contact-extra", "profile"})
     files = {"robot": robots.write(robot_example(), "ros", quirks)}
     for name, producer in PRODUCERS.items():
-        scene = flat.meant(flat_example(producer), producer)
+        scene = habits.meant(flat_example(producer), producer)
         files[name] = flat.write(scene, producer, frozenset({"effects"} & {*producer.may}))
     return files
 

@@ -5,24 +5,13 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.producers import flat
 from tests.producers.checking import accept
-from tests.producers.flat import PRODUCERS
-from tests.producers.truth import Joint, Link, Scene, Solid, scenes
 from tests.producers.world_oracle import assert_means
 
-
-def meant_by(name: str) -> st.SearchStrategy[Scene]:
-    """Scenes that the producer can write."""
-    producer = PRODUCERS[name]
-    return scenes(
-        kinds=producer.kinds,
-        joints=producer.joints,
-        moving=producer.moving,
-        centred=producer.centred,
-        nested=name == "colladamaya",
-    ).map(lambda scene: flat.meant(scene, producer))
-
+from colladaphy.testing.foreign_documents import scenes_of
+from colladaphy.testing.producers import flat, habits
+from colladaphy.testing.producers.habits import PRODUCERS
+from colladaphy.testing.producers.truth import Joint, Link, Scene, Solid
 
 NAMES = sorted(PRODUCERS.keys() - {"chimera"})
 
@@ -32,7 +21,7 @@ NAMES = sorted(PRODUCERS.keys() - {"chimera"})
 @given(data=st.data())
 def test_any_mixture_of_deviations(name: str, data: st.DataObject) -> None:
     producer = PRODUCERS[name]
-    scene = data.draw(meant_by(name))
+    scene = data.draw(scenes_of(name))
     quirks = frozenset()
     if producer.may:
         quirks = data.draw(st.sets(st.sampled_from(producer.may)).map(frozenset))
@@ -47,12 +36,12 @@ CASES = [
 @pytest.mark.parametrize(("name", "quirk"), CASES)
 def test_each_deviation(name: str, quirk: str | None) -> None:
     producer = PRODUCERS[name]
-    scene = flat.meant(example(producer), producer)
+    scene = habits.meant(example(producer), producer)
     data = flat.write(scene, producer, frozenset() if quirk is None else frozenset({quirk}))
     assert_means(accept(data, cli=quirk is None), scene)
 
 
-def example(producer: flat.Producer) -> Scene:
+def example(producer: habits.Producer) -> Scene:
     """Two bodies of all kinds that the producer knows, and a joint between them."""
     shift = (("translate", (0.5, 0.0, -0.25)), ("rotate", (0.0, 0.6, 0.8, 30.0)))
     sizes = {"box": (0.5, 1.0, 1.5), "mesh": (0.25, 0.5, 0.75), "sphere": (0.5,)}

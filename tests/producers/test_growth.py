@@ -11,12 +11,12 @@ from collections.abc import Callable
 
 import pytest
 from lxml import etree
-from tests.producers import flat, robots
-from tests.producers.flat import PRODUCERS
-from tests.producers.truth import Joint, Link, Scene, Solid
 
 import colladaphy
 from colladaphy.conform import conform
+from colladaphy.testing.producers import flat, habits, robots
+from colladaphy.testing.producers.habits import PRODUCERS
+from colladaphy.testing.producers.truth import Joint, Link, Scene, Solid
 
 PLACE = (("translate", (0.5, 0.0, -0.25)), ("rotate", (0.0, 0.6, 0.8, 30.0)))
 
@@ -44,7 +44,7 @@ def file(name: str, count: int) -> bytes:
         for i in range(count)
     )
     joints = tuple(Joint(f"joint{i}", i - 1, i) for i in range(1, count)) if producer.joints else ()
-    scene = flat.meant(Scene(links, joints), producer)
+    scene = habits.meant(Scene(links, joints), producer)
     return flat.write(scene, producer, frozenset(producer.may))
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.producers import robots
 from tests.producers.checking import accept, codes
-from tests.producers.truth import Link, Scene, Solid
 from tests.producers.world_oracle import assert_means
+
+from colladaphy.testing.producers import robots
+from colladaphy.testing.producers.truth import Link, Scene, Solid
 
 SOME_QUIRKS = st.sets(st.sampled_from(robots.QUIRKS)).map(frozenset)
 

@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.producers import flat, robots
-from tests.producers.flat import PRODUCERS
-from tests.producers.test_flat import NAMES, meant_by
+from tests.producers.test_flat import NAMES
 from tests.producers.test_robots import SOME_QUIRKS
-from tests.producers.truth import Scene
 
 import colladaphy
+from colladaphy.testing.foreign_documents import scenes_of
+from colladaphy.testing.producers import flat, robots
+from colladaphy.testing.producers.habits import PRODUCERS
+from colladaphy.testing.producers.truth import Scene
 from colladaphy.world import World, compare
 
 CHANGES = st.fixed_dictionaries(
@@ -60,7 +61,7 @@ def check(data: bytes, changes: dict[str, list[int]]) -> None:
 @given(data=st.data(), changes=CHANGES)
 def test_scenes(name: str, data: st.DataObject, changes: dict[str, list[int]]) -> None:
     producer = PRODUCERS[name]
-    scene = data.draw(meant_by(name))
+    scene = data.draw(scenes_of(name))
     quirks = frozenset()
     if producer.may:
         quirks = data.draw(st.sets(st.sampled_from(producer.may)).map(frozenset))

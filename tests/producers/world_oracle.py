@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from tests.producers.truth import Link, Scene, mass_properties, matrix_of
 
 from colladaphy import World
+from colladaphy.testing.producers.truth import Link, Scene, mass_properties, matrix_of
 from colladaphy.world import Body, Kind
 
 __all__ = ["assert_body", "assert_means"]

@@ -39,6 +39,7 @@ class Pool:
     """Documents by number, the first one first."""
 
     def __init__(self, first: Resource) -> None:
+        first.lead()
         self.resources = [first]
         self._numbers = {id(first): 0}
         self._tables: dict[tuple[type[Rows], tuple[str, ...]], Table[Any]] = {}

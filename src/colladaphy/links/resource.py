@@ -11,6 +11,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 from itertools import islice
+from os.path import realpath
 from typing import Any
 
 from lxml import etree
@@ -66,7 +67,9 @@ class Resource:
         """The name of the document in its archive."""
         self.opener = opener
         self.family: dict[str, Resource] = {} if family is None else family
-        """The documents that were opened for references, by file and reference."""
+        """The documents that were opened for references, by file and reference, and as "" the one
+        that all began with, which the others may refer back to."""
+        self.family.setdefault("", self)
         self.tolerant = tolerant
         """Whether references that lead nowhere are only reported, not refused."""
         self._shown: etree._ElementTree | None = None
@@ -85,8 +88,15 @@ class Resource:
 
     def with_tree(self, tree: etree._ElementTree) -> Resource:
         """The same document after a change."""
-        return Resource(tree, None, file=self.file, report=self.report, opener=self.opener,
+        made = Resource(tree, None, file=self.file, report=self.report, opener=self.opener,
                         family=self.family, tolerant=self.tolerant, member=self.member)  # fmt: skip
+        if self.family[""] is self:
+            made.lead()
+        return made
+
+    def lead(self) -> None:
+        """Be the one that the others of the family refer back to, instead of an earlier state."""
+        self.family[""] = self
 
     @cached_property
     def columns(self) -> Columns:
@@ -192,10 +202,21 @@ class Resource:
                 self._closed[file] = self._unreachable(error, origin)
                 raise self._closed[file] from None
             for other in self.family.values():
-                if other.file is not None and other.file == known.file:
+                if other._is_same(known):
                     known = other
             self.family[f"{self.file}\n{file}"] = known
-        return known
+        first = self.family[""]
+        return first if first._is_same(known) else known
+
+    @cached_property
+    def _identity(self) -> str | None:
+        """The file, whatever way led there, or the entry of an archive; None for mere bytes."""
+        if self.member is not None:
+            return f"!{self.member}"
+        return None if self.file is None else realpath(self.file)
+
+    def _is_same(self, other: Resource) -> bool:
+        return self._identity is not None and self._identity == other._identity
 
     def _open(self, file: str) -> Resource:
         if self.opener is None:

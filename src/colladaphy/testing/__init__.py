@@ -35,6 +35,12 @@ from colladaphy.testing.changes import EDITS, REWRITES, edits, equivalents
 from colladaphy.testing.coverage import Component, Coverage
 from colladaphy.testing.covering import covering_documents
 from colladaphy.testing.documents import AREAS, documents
+from colladaphy.testing.files import LinkedFiles, linked_files
+from colladaphy.testing.foreign_documents import (
+    FOREIGN_PRODUCERS,
+    ForeignDocument,
+    foreign_documents,
+)
 from colladaphy.testing.making.crowds import crowd
 from colladaphy.testing.mutations import MUTATIONS, mutants
 from colladaphy.testing.physics import physics_documents
@@ -45,17 +51,22 @@ del _hypothesis
 __all__ = [
     "AREAS",
     "EDITS",
+    "FOREIGN_PRODUCERS",
     "JOINTS",
     "MUTATIONS",
     "REWRITES",
     "SHAPES",
     "Component",
     "Coverage",
+    "ForeignDocument",
+    "LinkedFiles",
     "covering_documents",
     "crowd",
     "documents",
     "edits",
     "equivalents",
+    "foreign_documents",
+    "linked_files",
     "mutants",
     "physics_documents",
     "worlds",

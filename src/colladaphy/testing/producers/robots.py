@@ -11,19 +11,16 @@ from dataclasses import replace
 
 import numpy as np
 from hypothesis import strategies as st
-from tests.producers.markup import (
-    collada,
-    dates,
+
+from colladaphy.testing.markup import collada, dates, library, numbers, tag
+from colladaphy.testing.producers.markup import (
     geometry,
-    library,
     matrix_element,
-    numbers,
     primitive,
     steps_of,
-    tag,
     transforms,
 )
-from tests.producers.truth import Link, Scene, Solid, matrix_of
+from colladaphy.testing.producers.truth import Link, Scene, Solid, matrix_of
 
 QUIRKS = (
     "asset-order",

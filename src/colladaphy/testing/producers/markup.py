@@ -2,35 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 from numpy.typing import NDArray
-from tests.producers.truth import Solid, Steps
 
-NS_1_5 = "http://www.collada.org/2008/03/COLLADASchema"
-NS_1_4 = "http://www.collada.org/2005/11/COLLADASchema"
+from colladaphy.testing.markup import numbers, tag
+from colladaphy.testing.producers.truth import Solid, Steps
+
+__all__ = [
+    "SIDES",
+    "geometry",
+    "matrix_element",
+    "mesh",
+    "primitive",
+    "source",
+    "steps_of",
+    "transforms",
+]
+
 # A box's sides by its corners in the order of Solid.points, seen from outside.
-_SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
-SIDES = _SIDES
-
-
-def tag(name: str, /, *content: str, **attributes: object) -> str:
-    """An element; underscores at the end of attribute names are left out."""
-    written = "".join(
-        f' {key.rstrip("_")}="{value}"' for key, value in attributes.items() if value is not None
-    )
-    inner = "".join(content)
-    return f"<{name}{written}>{inner}</{name}>" if inner else f"<{name}{written}/>"
-
-
-def numbers(values: Iterable[float]) -> str:
-    """Numbers as XML Schema spells them."""
-    words = []
-    for value in values:
-        infinite = {float("inf"): "INF", float("-inf"): "-INF"}.get(float(value))
-        words.append(infinite or repr(float(value)))
-    return " ".join(words)
+SIDES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
 
 
 def transforms(steps: Steps) -> str:
@@ -39,6 +29,7 @@ def transforms(steps: Steps) -> str:
 
 
 def matrix_element(matrix: NDArray[np.float64]) -> str:
+    """A matrix element, row by row."""
     return tag("matrix", numbers(matrix.ravel().tolist()))
 
 
@@ -85,10 +76,10 @@ def mesh(
     position = tag("input", semantic="POSITION", source=f"#{id}-positions")
     use = tag("input", semantic="VERTEX", source=f"#{vertices}", offset=0)
     if primitive == "triangles":
-        corners = [c for a, b, d, e in _SIDES for c in (a, b, d, a, d, e)]
+        corners = [c for a, b, d, e in SIDES for c in (a, b, d, a, d, e)]
         faces = tag("triangles", use, tag("p", " ".join(map(str, corners))), count=12)
     elif primitive == "polylist":
-        corners = [c for side in _SIDES for c in side]
+        corners = [c for side in SIDES for c in side]
         faces = tag(
             "polylist",
             use,
@@ -98,7 +89,7 @@ def mesh(
         )
     else:
         faces = tag(
-            "polygons", use, *(tag("p", " ".join(map(str, side))) for side in _SIDES), count=6
+            "polygons", use, *(tag("p", " ".join(map(str, side))) for side in SIDES), count=6
         )
     return tag(
         name,
@@ -109,6 +100,7 @@ def mesh(
 
 
 def geometry(id: str, solid: Solid, **options: str | None) -> str:
+    """A geometry of the mesh of a box; options are those of `mesh`."""
     return tag("geometry", mesh(id, solid, **options), id=id, name=id)  # type: ignore[arg-type]
 
 
@@ -127,22 +119,3 @@ def primitive(solid: Solid, *, long: bool = False, two_radii: bool = False) -> s
         tag("height", numbers([height])),
         tag("radius", numbers([radius] * count)),
     )
-
-
-def library(name: str, *content: str) -> str:
-    """A library, where there is anything in it."""
-    return tag(f"library_{name}", *content) if any(content) else ""
-
-
-def collada(version: str, *content: str, namespaces: str = "") -> bytes:
-    """A document of a version."""
-    uri = NS_1_5 if version.startswith("1.5") else NS_1_4
-    inner = "".join(content)
-    return (
-        '<?xml version="1.0" encoding="utf-8"?>\n'
-        f'<COLLADA xmlns="{uri}"{namespaces} version="{version}">{inner}</COLLADA>'
-    ).encode()
-
-
-def dates(form: str = "2016-05-04T03:02:01Z") -> str:
-    return tag("created", form) + tag("modified", form)
