@@ -10,11 +10,12 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from colladaphy.validation.catalogue import all_rules, find_rule
+from colladaphy.validation.options import Options
 
 if TYPE_CHECKING:
     from colladaphy.validation.stages import validate as validate
 
-__all__ = ["all_rules", "find_rule", "validate"]
+__all__ = ["Options", "all_rules", "find_rule", "validate"]
 
 
 def __getattr__(name: str) -> Any:

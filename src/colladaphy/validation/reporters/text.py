@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from colladaphy.findings import Finding, Report
+from colladaphy.validation.reporters.presentation import Paint, plain, printable
+from colladaphy.validation.reporters.totals import counted
 
 __all__ = ["as_text", "changes", "finding_lines", "summary"]
 
-_PLURALS = {"error": "errors", "warning": "warnings", "info": "infos", "hint": "hints"}
 
-Paint = Callable[[str, str], str]
-
-
-def _plain(text: str, _: str) -> str:
-    return text
-
-
-def as_text(report: Report, *, paint: Paint = _plain) -> Iterator[str]:
+def as_text(report: Report, *, paint: Paint = plain) -> Iterator[str]:
     """The report's lines: each finding with its place and its hint, then the summary.
 
     `paint` colours a text by a severity's name.
@@ -27,7 +21,7 @@ def as_text(report: Report, *, paint: Paint = _plain) -> Iterator[str]:
     yield summary(report, paint=paint)
 
 
-def changes(report: Report, *, paint: Paint = _plain, most: int | None = 3) -> Iterator[str]:
+def changes(report: Report, *, paint: Paint = plain, most: int | None = 3) -> Iterator[str]:
     """What was changed, a line a finding, and at most `most` lines a code; then how many."""
     shown: dict[str, int] = {}
     for finding in report.findings:
@@ -37,12 +31,12 @@ def changes(report: Report, *, paint: Paint = _plain, most: int | None = 3) -> I
     for code, count in shown.items():
         if most is not None and count > most:
             yield f"... and {count - most} more of {code}"
-    yield f"{report.file or 'document'}: {_counted(report) or 'nothing to change'}"
+    yield f"{report.file or 'document'}: {counted(report.counts) or 'nothing to change'}"
 
 
-def summary(report: Report, *, paint: Paint = _plain) -> str:
+def summary(report: Report, *, paint: Paint = plain) -> str:
     """One line: is it valid, and how many findings of which severity are there?"""
-    counts = _counted(report)
+    counts = counted(report.counts)
     name = report.file or "document"
     if report.valid:
         return f"{name}: {paint('valid', 'valid')}" + (f" ({counts})" if counts else "")
@@ -54,16 +48,12 @@ def finding_lines(finding: Finding, paint: Paint) -> Iterator[str]:
     place = ":".join(str(part) for part in (finding.file, finding.line, finding.column) if part)
     severity = paint(str(finding.severity), str(finding.severity))
     head = f"{place}: " if place else ""
-    yield f"{head}{severity}: {finding.message} [{finding.code}]"
+    yield f"{printable(head)}{severity}: {_line(finding.message)} [{finding.code}]"
     if finding.path:
-        yield f"    at {finding.path}"
+        yield f"    at {printable(finding.path)}"
     if finding.hint:
-        yield f"    {finding.hint}"
+        yield f"    {_line(finding.hint)}"
 
 
-def _counted(report: Report) -> str:
-    return ", ".join(
-        f"{count} {severity if count == 1 else _PLURALS[severity]}"
-        for severity, count in report.counts.items()
-        if count
-    )
+def _line(text: str) -> str:
+    return printable(" ".join(text.split()))
