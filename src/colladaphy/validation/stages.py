@@ -22,10 +22,10 @@ from colladaphy.validation.availability import availability
 from colladaphy.validation.options import Options
 
 if TYPE_CHECKING:
-    from colladaphy.columns.accepting import Verdict
-    from colladaphy.columns.reading import Document as Columns
     from lxml import etree
 
+    from colladaphy.columns.accepting import Verdict
+    from colladaphy.columns.reading import Document as Columns
     from colladaphy.validation.behind import Came
 
 __all__ = ["validate"]
