@@ -422,7 +422,8 @@ _HOMES = {
     """.split(),
     "pe": """
         Body BodyType Capsule Cylinder EngineStateType FrameType Joint JointKindType LimitsType
-        Material Motion PairType Radii Radius RodType ShapeType SpringType UnionType World WorldType
+        Material Motion MotorType PairType Radii Radius RodType ShapeType SpringType UnionType World
+        WorldType
     """.split(),
     "physics": """
         ForceFieldType InstanceForceFieldType InstancePhysicsMaterialType InstancePhysicsModelType

@@ -2527,6 +2527,9 @@ from colladaphy_schema.pe import (
     Motion as Motion,
 )
 from colladaphy_schema.pe import (
+    MotorType as MotorType,
+)
+from colladaphy_schema.pe import (
     PairType as PairType,
 )
 from colladaphy_schema.pe import (

@@ -297,6 +297,27 @@ class MotionType(Stated):
 
 
 @dataclass(slots=True, kw_only=True)
+class MotorType:
+    """The type motor_type."""
+
+    class Meta:
+        name = "motor_type"
+
+    speed: float = field(
+        metadata={
+            "type": "Element",
+            "namespace": "urn:colladaphy:pe:1",
+        }
+    )
+    strength: float = field(
+        metadata={
+            "type": "Element",
+            "namespace": "urn:colladaphy:pe:1",
+        }
+    )
+
+
+@dataclass(slots=True, kw_only=True)
 class PairType:
     """The type pair_type."""
 
@@ -478,6 +499,13 @@ class JointType:
         },
     )
     linear_spring: None | SpringType = field(
+        default=None,
+        metadata={
+            "type": "Element",
+            "namespace": "urn:colladaphy:pe:1",
+        },
+    )
+    motor: None | MotorType = field(
         default=None,
         metadata={
             "type": "Element",

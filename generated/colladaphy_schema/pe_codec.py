@@ -52,6 +52,7 @@ from colladaphy_schema.pe import (
     MaterialType,
     Motion,
     MotionType,
+    MotorType,
     PairType,
     PlaneType,
     Radii,
@@ -490,6 +491,40 @@ def encode_MotionType(o, w, tag, i):
     w(f"{i}</{tag}>")
 
 
+def decode_MotorType(e):
+    o = new(MotorType)
+    v_speed = REQUIRED
+    v_strength = REQUIRED
+    for c in e:
+        t = c.tag
+        if t == "{urn:colladaphy:pe:1}speed":
+            x = (joined(c) if len(c) else c.text) or ""
+            v_speed = number(x, c)
+        elif t == "{urn:colladaphy:pe:1}strength":
+            x = (joined(c) if len(c) else c.text) or ""
+            v_strength = number(x, c)
+        else:
+            unexpected(e, c)
+    if v_speed is REQUIRED:
+        missing(e, "speed")
+    o.speed = v_speed
+    if v_strength is REQUIRED:
+        missing(e, "strength")
+    o.strength = v_strength
+    return o
+
+
+def encode_MotorType(o, w, tag, i):
+    a = f"{i}<{tag}"
+    w(a + ">")
+    j = i and i + "  "
+    x = o.speed
+    w(j + "<pe:speed>" + number_text(x) + "</pe:speed>")
+    x = o.strength
+    w(j + "<pe:strength>" + number_text(x) + "</pe:strength>")
+    w(f"{i}</{tag}>")
+
+
 def decode_PairType(e):
     o = new(PairType)
     v_first = REQUIRED
@@ -708,6 +743,7 @@ def decode_JointType(e):
     v_linear_limits = None
     v_angular_spring = None
     v_linear_spring = None
+    v_motor = None
     v_kind = None
     v_uid = None
     v_sid = None
@@ -737,6 +773,8 @@ def decode_JointType(e):
             v_angular_spring = decode_SpringType(c)
         elif t == "{urn:colladaphy:pe:1}linear_spring":
             v_linear_spring = decode_SpringType(c)
+        elif t == "{urn:colladaphy:pe:1}motor":
+            v_motor = decode_MotorType(c)
         else:
             unexpected(e, c)
     o.frame1 = v_frame1
@@ -745,6 +783,7 @@ def decode_JointType(e):
     o.linear_limits = v_linear_limits
     o.angular_spring = v_angular_spring
     o.linear_spring = v_linear_spring
+    o.motor = v_motor
     o.kind = v_kind
     o.uid = v_uid
     o.sid = v_sid
@@ -773,6 +812,7 @@ def encode_JointType(o, w, tag, i):
         or o.linear_limits is not None
         or o.angular_spring is not None
         or o.linear_spring is not None
+        or o.motor is not None
     ):
         w(a + "/>")
         return
@@ -796,6 +836,9 @@ def encode_JointType(o, w, tag, i):
     x = o.linear_spring
     if x is not None:
         encode_SpringType(x, w, "pe:linear_spring", j)
+    x = o.motor
+    if x is not None:
+        encode_MotorType(x, w, "pe:motor", j)
     w(f"{i}</{tag}>")
 
 
@@ -1264,6 +1307,7 @@ def decode_Joint(e):
     v_linear_limits = None
     v_angular_spring = None
     v_linear_spring = None
+    v_motor = None
     v_kind = None
     v_uid = None
     v_sid = None
@@ -1293,6 +1337,8 @@ def decode_Joint(e):
             v_angular_spring = decode_SpringType(c)
         elif t == "{urn:colladaphy:pe:1}linear_spring":
             v_linear_spring = decode_SpringType(c)
+        elif t == "{urn:colladaphy:pe:1}motor":
+            v_motor = decode_MotorType(c)
         else:
             unexpected(e, c)
     o.frame1 = v_frame1
@@ -1301,6 +1347,7 @@ def decode_Joint(e):
     o.linear_limits = v_linear_limits
     o.angular_spring = v_angular_spring
     o.linear_spring = v_linear_spring
+    o.motor = v_motor
     o.kind = v_kind
     o.uid = v_uid
     o.sid = v_sid
@@ -1329,6 +1376,7 @@ def encode_Joint(o, w, tag, i):
         or o.linear_limits is not None
         or o.angular_spring is not None
         or o.linear_spring is not None
+        or o.motor is not None
     ):
         w(a + "/>")
         return
@@ -1352,6 +1400,9 @@ def encode_Joint(o, w, tag, i):
     x = o.linear_spring
     if x is not None:
         encode_SpringType(x, w, "pe:linear_spring", j)
+    x = o.motor
+    if x is not None:
+        encode_MotorType(x, w, "pe:motor", j)
     w(f"{i}</{tag}>")
 
 

@@ -135,6 +135,14 @@ class MotionTypeRows(Rows):
     )
 
 
+class MotorTypeRows(Rows):
+    """Rows of the type motor_type."""
+
+    __slots__ = ()
+    speed: Column[Floats] = Column("{urn:colladaphy:pe:1}speed", "element", "float")
+    strength: Column[Floats] = Column("{urn:colladaphy:pe:1}strength", "element", "float")
+
+
 class PairTypeRows(Rows):
     """Rows of the type pair_type."""
 
@@ -222,6 +230,9 @@ class JointTypeRows(Rows):
     )
     linear_spring: Child[SpringTypeRows] = Child(
         "{urn:colladaphy:pe:1}linear_spring", "pe_columns:SpringTypeRows", optional=True
+    )
+    motor: Child[MotorTypeRows] = Child(
+        "{urn:colladaphy:pe:1}motor", "pe_columns:MotorTypeRows", optional=True
     )
 
 
@@ -394,6 +405,9 @@ class JointRows(Rows):
     )
     linear_spring: Child[SpringTypeRows] = Child(
         "{urn:colladaphy:pe:1}linear_spring", "pe_columns:SpringTypeRows", optional=True
+    )
+    motor: Child[MotorTypeRows] = Child(
+        "{urn:colladaphy:pe:1}motor", "pe_columns:MotorTypeRows", optional=True
     )
 
 

@@ -53,6 +53,7 @@ def rebuilt(world: World) -> World:
             angular_max=joint.angular_max,
             linear_spring=joint.linear_spring,
             angular_spring=joint.angular_spring,
+            motor=joint.motor,
             enabled=joint.enabled,
             interpenetrate=joint.interpenetrate,
             uid=joint.uid,

@@ -273,6 +273,8 @@ def test_joints_have_the_defaults_of_a_single_one() -> None:
         ("angular_limits", np.zeros((2, 3))),
         ("linear_springs", np.full((2, 3), np.inf)),
         ("angular_springs", [["a"] * 3] * 2),
+        ("motors", [(1.0, -1.0)] * 2),
+        ("motors", np.full((2, 2), np.inf)),
         ("enabled", ["yes", "no"]),
         ("names", ["knee"]),
     ],

@@ -97,6 +97,7 @@ def test_everything_given_is_stored() -> None:
         angular_max=(0.1, 0.2, 0.3),
         linear_spring=(10, 0.5, 1),
         angular_spring=(20, 0.25, 0.125),
+        motor=(3, 7),
         enabled=False,
         interpenetrate=True,
         uid=9,
@@ -108,7 +109,7 @@ def test_everything_given_is_stored() -> None:
     assert joint.name == "knee" and not joint.enabled and joint.interpenetrate
     assert joint.frame1[1].tolist() == [0.5, 0.5, 0.5, 0.5]
     assert joint.linear_spring == (10, 0.5, 1) and joint.angular_spring == (20, 0.25, 0.125)
-    assert joint.linear_max.tolist() == [1, 2, math.inf]
+    assert joint.linear_max.tolist() == [1, 2, math.inf] and joint.motor == (3, 7)
     joint.enabled, joint.interpenetrate, joint.name, joint.uid = True, False, None, 3
     assert joint.enabled and not joint.interpenetrate and joint.name is None and joint.uid == 3
     assert world.attach_fixed_joint(None, a).sid == 13
@@ -145,6 +146,9 @@ def test_impossible_joints_are_refused() -> None:
         {"linear_min": (0, 0)},
         {"linear_spring": (1, math.inf, 0)},
         {"angular_spring": (1, 0)},
+        {"motor": (1, -1)},
+        {"motor": (math.inf, 1)},
+        {"motor": 3},
         {"frame1": ((0, 0, 0), (0, 0, 0, 0))},
         {"uid": 2**64},
         {"sid": 0},

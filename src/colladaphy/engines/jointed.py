@@ -9,14 +9,29 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.engines.frames import ORIGIN, Pose
-from colladaphy.engines.rules import JOINT_DISPLACED, JOINT_LIMITS, JOINT_OUTSIDE, JOINT_VELOCITY
-from colladaphy.world import coordinates, rotations
+from colladaphy.engines.rules import (
+    JOINT_DISPLACED,
+    JOINT_LIMITS,
+    JOINT_MOTOR,
+    JOINT_OUTSIDE,
+    JOINT_VELOCITY,
+)
+from colladaphy.world import JointKind, coordinates, rotations
 
 if TYPE_CHECKING:
     from colladaphy.findings import Finding
     from colladaphy.world import Body, Joint, World
 
-__all__ = ["angles_of", "crossed", "fastest", "joint_findings", "misfit", "mismatch", "relative"]
+__all__ = [
+    "angles_of",
+    "crossed",
+    "fastest",
+    "joint_findings",
+    "misfit",
+    "mismatch",
+    "motor_findings",
+    "relative",
+]
 
 Floats = NDArray[np.float64]
 
@@ -91,6 +106,13 @@ def _motion(body: Body | None) -> tuple[Floats, Floats]:
     if body is None or body.fixed:
         return np.zeros(3), np.zeros(3)
     return body.linear_velocity, body.angular_velocity
+
+
+def motor_findings(joint: Joint) -> Iterator[Finding]:
+    """That a motor has no single axis to drive."""
+    if joint.motor[1] and joint.kind not in (JointKind.HINGE, JointKind.SLIDER):
+        kind = joint.kind.name.lower()
+        yield JOINT_MOTOR.at(message=f"{joint!r} has a motor, but is a {kind} joint.")
 
 
 def joint_findings(

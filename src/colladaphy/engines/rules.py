@@ -240,6 +240,14 @@ JOINT_OVERLAP = Rule(
     "COLLADA 1.5 §interpenetrate",
     why="The two push against each other for ever, and the scene trembles.",
 )
+JOINT_MOTOR = Rule(
+    "engine-joint-motor",
+    Severity.ERROR,
+    "The engine cannot run the motor of a joint.",
+    "Motors drive the only free axis of a hinge, or of a slider with MuJoCo, outside of loops.",
+    "colladaphy docs/engines.md §Motors",
+    why="Without it the joint would move otherwise than the scene says.",
+)
 JOINT_LOOP = Rule(
     "engine-joint-loop",
     Severity.ERROR,
@@ -415,6 +423,7 @@ RULES = (
     JOINT_OUTSIDE,
     JOINT_VELOCITY,
     JOINT_OVERLAP,
+    JOINT_MOTOR,
     JOINT_LOOP,
     JOINT_INERT,
     CHOSEN,

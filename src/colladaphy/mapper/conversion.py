@@ -101,6 +101,12 @@ def _convert(world: World, change: Conversion) -> None:
     joints.column("linear_limits")[...] *= scale
     joints.column("linear_springs")[:, 2] *= scale
     joints.column("angular_springs")[:, :2] *= scale * scale
+    # A slider's speed is a length, and its force has one in it; a hinge's torque has two.
+    slides = joints.column("angular_limits")[:, 0] == joints.column("angular_limits")[:, 1]
+    slides = slides.all(axis=1)
+    motors = joints.column("motors")
+    motors[:, 0] *= np.where(slides, scale, 1.0)
+    motors[:, 1] *= np.where(slides, scale, scale * scale)
     bodies = joints.column("bodies")
     for side in (0, 1):
         free = bodies[:, side] == 0  # frames of the world turn with the world

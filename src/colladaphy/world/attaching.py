@@ -4,7 +4,8 @@ A joint binds a frame of `body1` (the reference) to a frame of `body2`. With fra
 origin of frame 2 may move along the axes of frame 1 within the linear limits, and frame 2 may turn
 about them within the angular limits (radians; x and y swing, z twists). Equal limits lock an axis,
 ±inf free it. Springs (stiffness, damping, target) pull along what is free; stiffness and damping
-zero is no spring.
+zero is no spring. A motor (speed, strength) drives the only free axis of a hinge or slider at a
+speed, with a force or torque of at most its strength.
 """
 
 from __future__ import annotations
@@ -33,11 +34,13 @@ __all__ = [
     "Frame",
     "JointOptions",
     "Limits",
+    "Motor",
     "Spring",
     "attach",
     "attach_along",
     "extend_joints",
     "limits_of",
+    "motor_of",
     "one_axis",
     "spring_of",
 ]
@@ -49,6 +52,9 @@ Limits = ArrayLike
 """Three numbers, one an axis, ±inf for free."""
 Spring = tuple[float, float, float]
 """Stiffness, damping, target (a length or an angle in radians)."""
+
+Motor = tuple[float, float]
+"""Speed (of a length or an angle) and greatest force or torque."""
 
 LOCKED: Final = (0.0, 0.0, 0.0)
 FREE: Final = (np.inf, np.inf, np.inf)
@@ -64,6 +70,7 @@ class JointOptions(TypedDict, total=False):
     angular_max: Limits
     linear_spring: Spring | None
     angular_spring: Spring | None
+    motor: Motor | None
     enabled: bool
     interpenetrate: bool
     uid: int
@@ -84,6 +91,7 @@ def attach(
     angular_max: Limits = LOCKED,
     linear_spring: Spring | None = None,
     angular_spring: Spring | None = None,
+    motor: Motor | None = None,
     enabled: bool = True,
     interpenetrate: bool = False,
     uid: int = 0,
@@ -114,6 +122,7 @@ def attach(
         "angular_limits": limits_of("angular", angular_min, angular_max),
         "linear_springs": spring_of("linear", linear_spring),
         "angular_springs": spring_of("angular", angular_spring),
+        "motors": motor_of(motor),
         "enabled": values.flag("flag enabled", enabled),
         "interpenetrate": values.flag("flag interpenetrate", interpenetrate),
     }
@@ -207,6 +216,16 @@ def spring_of(what: str, value: Spring | None) -> Floats:
     return values.vector(f"{what} spring", value, rule=JOINT_VALUE)
 
 
+def motor_of(value: Motor | None) -> Floats:
+    """Speed and strength as (2,); None is no motor."""
+    if value is None:
+        return np.zeros(2)
+    numbers = values.vector("motor", value, 2, JOINT_VALUE)
+    if numbers[1] < 0:
+        raise refuse(JOINT_VALUE, f"The strength of the motor is {value[1]!r}.")
+    return numbers
+
+
 def extend_joints(storage: Storage, columns: JointColumns) -> NDArray[np.int64]:
     """Add many joints, all or, on WorldError, none; returns their system ids (n,)."""
     filled = _prepare(columns)
@@ -251,11 +270,14 @@ def _prepare(columns: JointColumns) -> dict[str, NDArray[Any]]:
         ("orientations", NUMBER),
         ("linear_springs", JOINT_VALUE),
         ("angular_springs", JOINT_VALUE),
+        ("motors", JOINT_VALUE),
     ):
         if name in filled and not np.all(np.isfinite(filled[name])):
             raise refuse(rule, f"The column {name} holds numbers that are not finite.")
     if not np.all(np.any(filled["orientations"] != 0, axis=2)):
         raise refuse(NUMBER, "An orientation is a quaternion of length zero.")
+    if "motors" in filled and np.any(filled["motors"][:, 1] < 0):
+        raise refuse(JOINT_VALUE, "The column motors holds a strength that is negative.")
     for name in ("linear_limits", "angular_limits"):
         if name in filled and np.any(np.isnan(filled[name])):
             raise refuse(JOINT_VALUE, f"The column {name} holds what is not a number.")

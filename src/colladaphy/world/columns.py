@@ -58,6 +58,7 @@ JOINT_FIELDS: Final[dict[str, Field]] = {
     "angular_limits": (np.float64, (2, 3)),
     "linear_springs": (np.float64, (3,)),
     "angular_springs": (np.float64, (3,)),
+    "motors": (np.float64, (2,)),
     "enabled": (np.bool_, ()),
     "interpenetrate": (np.bool_, ()),
 }
@@ -162,6 +163,8 @@ class JointColumns:
     """(n, 3) stiffness, damping, target length."""
     angular_springs: Floats | None = None
     """(n, 3) stiffness, damping, target angle in radians."""
+    motors: Floats | None = None
+    """(n, 2) speed and greatest force or torque along the only free axis; 0, 0 for none."""
     enabled: Bools | None = None
     """(n,) False for joints that do nothing at present."""
     interpenetrate: Bools | None = None

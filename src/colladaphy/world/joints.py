@@ -14,10 +14,12 @@ from colladaphy.world.attaching import (
     Frame,
     JointOptions,
     Limits,
+    Motor,
     Spring,
     attach,
     attach_along,
     limits_of,
+    motor_of,
     one_axis,
     spring_of,
 )
@@ -26,6 +28,7 @@ from colladaphy.world.body import Body
 from colladaphy.world.columns import JOINT_FIELDS
 from colladaphy.world.handles import Handles
 from colladaphy.world.kinds import JointKind
+from colladaphy.world.rules import JOINT_VALUE, refuse
 from colladaphy.world.storage import HasStorage, Storage
 
 __all__ = [
@@ -188,6 +191,21 @@ class Joint:
     @angular_spring.setter
     def angular_spring(self, value: Spring | None) -> None:
         self._set("angular_springs", spring_of("angular", value))
+
+    @property
+    def motor(self) -> Motor:
+        """Speed at which the only free axis is driven, and the most force or torque for it.
+
+        (0, 0) is no motor; None sets that.
+        """
+        speed, strength = self._get("motors").tolist()
+        return speed, strength
+
+    @motor.setter
+    def motor(self, value: Motor | None) -> None:
+        if value is not None and self.kind not in (JointKind.HINGE, JointKind.SLIDER):
+            raise refuse(JOINT_VALUE, f"{self!r} has no single axis that a motor could drive.")
+        self._set("motors", motor_of(value))
 
     @property
     def coordinates(self) -> Floats:

@@ -146,7 +146,7 @@ JOINT_VALUE = Rule(
     "physics-joint-value",
     Severity.ERROR,
     "A value of a joint is out of its range.",
-    "Limits are three numbers each and never NaN; axes are not zero; springs are finite.",
+    "Limits are three numbers each and never NaN, axes not zero, springs and motors finite.",
     "thesis 4.5",
     why="No engine could keep the joint.",
 )

@@ -8,6 +8,7 @@ apart at a share of the overlap a step. So rebounds depend neither on the speed 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
@@ -47,8 +48,13 @@ class Surfaces:
         special = bool(np.any(table.dynamic != np.maximum(own[:, None], own)))
         return cls(table, own, special, twice)
 
-    def aim(self, model: Any, data: Any, rows: NDArray[np.int64]) -> None:
-        """Set what contacts do; between mj_step1 and mj_step2. `rows`: table rows of the geoms."""
+    def aim(
+        self, model: Any, data: Any, rows: NDArray[np.int64], drive: Callable[[Any], None]
+    ) -> None:
+        """Set what contacts do; between mj_step1 and mj_step2. `rows`: table rows of the geoms.
+
+        `drive` sets what motors do, before anything is solved for.
+        """
         contact = data.contact
         pairs = rows[np.array(contact.geom)]
         first, second = pairs[:, 0], pairs[:, 1]
@@ -59,6 +65,7 @@ class Surfaces:
             mujoco.mj_makeConstraint(model, data)
             mujoco.mj_island(model, data)
             mujoco.mj_referenceConstraint(model, data)
+        drive(data)
         mujoco.mj_fwdActuation(model, data)
         mujoco.mj_fwdAcceleration(model, data)
         free = np.zeros(data.nefc)

@@ -97,8 +97,9 @@ class MujocoEngine:
                 model = self._model = build(world, chosen)
             self._motion = Motion(world, model)
             self._stepper = Stepper(
-                model.compiled, model.surfaces, model.geom_rows, fourth=chosen.integrator == "rk4"
-            )
+                model.compiled, model.surfaces, model.geom_rows, model.motors,
+                fourth=chosen.integrator == "rk4",
+            )  # fmt: skip
             self._key = key
         compiled = self._model.compiled
         self._data = mujoco.MjData(compiled)

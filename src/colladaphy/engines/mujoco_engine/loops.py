@@ -16,7 +16,9 @@ __all__ = ["can_close", "close"]
 
 
 def can_close(joint: Joint) -> bool:
-    """True for fixed joints, and for ball and hinge joints without limits and springs."""
+    """True for fixed joints, and for ball and hinge joints without limits, springs and motors."""
+    if joint.motor[1]:
+        return False
     if any(joint.linear_spring[:2]) or any(joint.angular_spring[:2]):
         return False
     if np.any(joint.linear_min) or np.any(joint.linear_max):

@@ -32,6 +32,7 @@ __all__ = ["Model", "build"]
 Floats = NDArray[np.float64]
 
 _SLEEP = 0.05  # of the velocity that gravity gives in one step
+_DRIVEN = 0.999  # of the way to its speed that a motor goes in a step
 _HARD = 2.0  # steps: the least that MuJoCo is stable with
 # MuJoCo's own guess grows with the square of the number of bodies.
 _MEMORY = 32 << 20
@@ -54,6 +55,8 @@ class Model:
     surfaces: Surfaces
     geom_rows: NDArray[np.int64]
     """Row in the table of `surfaces` of each geom."""
+    motors: NDArray[np.float64]
+    """The speed (nv,) at which each degree of freedom is driven, NaN for those without a motor."""
 
 
 def build(world: World, chosen: Chosen) -> Model:
@@ -82,7 +85,10 @@ def build(world: World, chosen: Chosen) -> Model:
     for geom, sid, material in builder.geoms:
         owners[geom.id], materials[geom.id] = sid, material
     rows = surfaces.table.places(materials)
-    return Model(compiled, forest, builder.hangings, numbers, owners, surfaces, rows)
+    motors = np.full(compiled.nv, np.nan)
+    for driven, speed in builder.motors:
+        motors[compiled.jnt_dofadr[driven.id]] = speed
+    return Model(compiled, forest, builder.hangings, numbers, owners, surfaces, rows, motors)
 
 
 def _solref(world: World, steps: float) -> list[float]:
@@ -134,6 +140,7 @@ class _Builder:
         self.bodies: dict[int, Any] = {0: spec.worldbody}
         self.hangings: dict[int, Hanging] = {}
         self.geoms: list[tuple[Any, int, int]] = []  # with system id and material
+        self.motors: list[tuple[Any, float]] = []  # MuJoCo's joints and their speeds
         self.inertias = inertias_of(world)
         self.rows = {sid: row for row, sid in enumerate(world.sids.tolist())}
 
@@ -197,6 +204,12 @@ class _Builder:
         if freedom.kind == "ball":
             made.limited = mujoco.mjtLimited.mjLIMITED_FALSE
             return
+        speed, strength = joint.motor
+        if strength:
+            # Friction that holds an axis at a speed instead of at rest (`stepping`).
+            made.frictionloss = strength
+            made.solimp_friction = [_DRIVEN, _DRIVEN, 1.0, 0.5, 1.0]
+            self.motors.append((made, speed))
         made.springref = target
         span = [float(low[freedom.index]), float(high[freedom.index])]
         limited = any(np.isfinite(span))

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import mujoco
 import numpy as np
 
-from colladaphy.engines.jointed import crossed, fastest, joint_findings
+from colladaphy.engines.jointed import crossed, fastest, joint_findings, motor_findings
 from colladaphy.engines.mujoco_engine.convexity import is_convex
 from colladaphy.engines.mujoco_engine.forest import plan
 from colladaphy.engines.mujoco_engine.inertia import SLACK, are_points, inertias_of
@@ -145,6 +145,7 @@ def _joints(world: World, fresh: bool) -> Iterator[Finding]:
         if joint.sid in inert:
             yield JOINT_INERT.at(message=f"{joint!r} binds what cannot move.")
             continue
+        yield from motor_findings(joint)
         wrong = joint_findings(joint, speeds, closing=joint.sid in loops)
         yield from (f for f in wrong if fresh or f.code == JOINT_LIMITS.code)
         if crossed(joint):

@@ -1,7 +1,7 @@
 """One step of MuJoCo's, taken apart so that contacts follow their materials and nothing drifts.
 
 Steps of first order (MuJoCo's semi-implicit Euler integrators) hold contacts and limits. With
-"rk4", whatever neither touches anything nor meets a limit in a step moves by the classical
+"rk4", whatever has no motor, touches nothing and meets no limit in a step moves by the classical
 Runge-Kutta method of fourth order instead, tree by tree.
 """
 
@@ -25,8 +25,9 @@ class Stepper:
     """Steps the data of one compiled model."""
 
     def __init__(
-        self, compiled: Any, surfaces: Surfaces, geom_rows: NDArray[np.int64], *, fourth: bool
-    ) -> None:
+        self, compiled: Any, surfaces: Surfaces, geom_rows: NDArray[np.int64],
+        motors: NDArray[np.float64], *, fourth: bool,
+    ) -> None:  # fmt: skip
         self._compiled = compiled
         self._surfaces = surfaces
         self._geom_rows = geom_rows
@@ -36,6 +37,8 @@ class Stepper:
         joints = np.asarray(compiled.jnt_bodyid)
         self._joint_trees = np.asarray(compiled.body_treeid)[joints]
         self._dof_trees = np.asarray(compiled.dof_treeid)
+        self._motors = motors
+        self._driven = np.unique(self._dof_trees[~np.isnan(motors)])
         ends = np.append(np.asarray(compiled.jnt_qposadr), compiled.nq)
         self._position_trees = np.repeat(self._joint_trees, np.diff(ends))
         self.touches: Touches | None = None
@@ -56,8 +59,7 @@ class Stepper:
             mujoco.mj_fwdConstraint(self._compiled, data)
             self._smooth(data)
             return
-        if data.ncon:
-            self._surfaces.aim(self._compiled, data, self._geom_rows)
+        self._aim(data)
         mujoco.mj_step2(self._compiled, data)
         if bound.all():
             return
@@ -74,9 +76,23 @@ class Stepper:
 
     def _first_order(self, data: Any) -> None:
         mujoco.mj_step1(self._compiled, data)
-        if data.ncon:
-            self._surfaces.aim(self._compiled, data, self._geom_rows)
+        self._aim(data)
         mujoco.mj_step2(self._compiled, data)
+
+    def _aim(self, data: Any) -> None:
+        """Set what motors and contacts come to in this step; between mj_step1 and mj_step2."""
+        if data.ncon:
+            self._surfaces.aim(self._compiled, data, self._geom_rows, self._drive)
+        else:
+            self._drive(data)
+
+    def _drive(self, data: Any) -> None:
+        if not len(self._driven):
+            return
+        rows = slice(data.ne, data.ne + data.nf)
+        speeds = self._motors[data.efc_id[rows]]
+        wanted = (speeds - data.efc_vel[rows]) / float(self._compiled.opt.timestep)
+        data.efc_aref[rows] = np.where(np.isnan(speeds), data.efc_aref[rows], wanted)
 
     def _smooth(self, data: Any, *, anew: bool = False) -> None:
         """A step in which nothing touches; `anew` if `data` are not at its beginning."""
@@ -91,8 +107,9 @@ class Stepper:
             option.disableflags = flags
 
     def _bound(self, data: Any) -> NDArray[np.bool_]:
-        """Which trees a contact or a limit holds, and those that loops bind to them."""
+        """Which trees a motor, contact or limit holds, and those that loops bind to them."""
         bound = np.zeros(self._compiled.ntree + 1, dtype=np.bool_)  # the last: not of any tree
+        bound[self._driven] = True
         if data.ncon:
             bound[self._geom_trees[np.array(data.contact.geom)]] = True
         if data.nl:

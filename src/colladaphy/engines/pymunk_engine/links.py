@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.engines.jointed import motor_findings
 from colladaphy.engines.planar import LARGEST, TOLERANCE
 from colladaphy.engines.plane import Frame
-from colladaphy.engines.rules import JOINT_INERT, JOINT_LIMITS, NOT_PLANAR, SIZE
+from colladaphy.engines.rules import JOINT_INERT, JOINT_LIMITS, JOINT_MOTOR, NOT_PLANAR, SIZE
 from colladaphy.findings import Finding
-from colladaphy.world import rotations
+from colladaphy.world import JointKind, rotations
 
 if TYPE_CHECKING:
     from colladaphy.world import Joint
@@ -57,6 +58,8 @@ class Link:
     """Points that are pulled together, with stiffness and damping."""
     torsion: tuple[float, float, float] | None = None
     """Angle at rest, stiffness, damping."""
+    motor: tuple[float, float] | None = None
+    """Angular speed of the second body against the first, and the most torque for it."""
     findings: list[Finding] = field(default_factory=list)
 
     @property
@@ -88,7 +91,7 @@ def plan(joint: Joint, frame: Frame, size: float) -> Link:
 
 def _beyond(joint: Joint) -> bool:
     numbers = np.concatenate([
-        joint.frame1[0], joint.frame2[0], joint.linear_spring, joint.angular_spring,
+        joint.frame1[0], joint.frame2[0], joint.linear_spring, joint.angular_spring, joint.motor,
         joint.linear_min, joint.linear_max, joint.angular_min, joint.angular_max,
     ])  # fmt: skip
     return bool(np.any(np.abs(numbers[np.isfinite(numbers)]) > LARGEST))
@@ -118,6 +121,21 @@ class _Planner:
     def run(self) -> None:
         self._linear()
         self._angular()
+        self._motor()
+
+    def _motor(self) -> None:
+        joint, (speed, strength) = self.joint, self.joint.motor
+        if not strength:
+            return
+        self.link.findings.extend(motor_findings(joint))
+        turning = np.flatnonzero(joint.angular_min != joint.angular_max)
+        if joint.kind is JointKind.SLIDER:
+            message = f"{joint!r}: pymunk drives hinges, no sliders."
+            self.link.findings.append(JOINT_MOTOR.at(message=message))
+        elif joint.kind is JointKind.HINGE and not self.along[turning[0]]:
+            self._refuse("its motor would turn the bodies out of the plane")
+        elif joint.kind is JointKind.HINGE:
+            self.link.motor = (speed if self.heights[turning[0]] > 0 else -speed, strength)
 
     def _refuse(self, message: str) -> None:
         self.link.findings.append(NOT_PLANAR.at(message=f"{self.joint!r}: {message}."))

@@ -213,6 +213,11 @@ def _constraints(
     if link.torsion is not None:
         rest, stiffness, damping = link.torsion
         soft.append(pymunk.DampedRotarySpring(first, second, -rest, stiffness, damping))
+    if link.motor is not None:
+        speed, strength = link.motor
+        motor = pymunk.SimpleMotor(first, second, -speed)  # Chipmunk counts from the other side
+        motor.max_force = strength
+        soft.append(motor)
     if not link.collide and not made and not soft:
         # Nothing holds them, but they pass through each other.
         soft.append(pymunk.RotaryLimitJoint(first, second, -np.inf, np.inf))

@@ -55,6 +55,8 @@ class Constraints:
     has_angular: Array
     exact_springs: Array
     has_exact_spring: Array
+    motors: Array
+    """(n, 2) speed and strength; only the profile has them."""
 
 
 def read_constraints(constraints: Any, home: int, start: int) -> Constraints:
@@ -151,7 +153,11 @@ def _profile(constraints: Any, count: int) -> dict[str, Any]:
         "exact_frames": frames,
         "exact_springs": np.zeros((count, 2, 3)),
         "has_exact_spring": np.zeros((count, 2), np.bool_),
+        "motors": np.zeros((count, 2)),
     }  # fmt: skip
+    if len(joints.motor):
+        motor = joints.motor
+        made["motors"][owner[motor.owner]] = np.column_stack([motor.speed, motor.strength])
     for name in ("linear", "angular"):
         exact, has = np.zeros((count, 2, 3)), np.zeros(count, np.bool_)
         limits = getattr(joints, f"{name}_limits")

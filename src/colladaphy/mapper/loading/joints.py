@@ -116,8 +116,10 @@ class _Joints:
         read, rows = self._read, self._rows
         linear, angular = read.linear[rows].copy(), read.angular[rows].copy()
         springs, has = read.springs[rows].copy(), read.has_spring[rows].copy()
+        motors = np.zeros((len(rows), 2))
         if self._prefer != "common":
             self._refine(linear, angular, springs, has)
+            motors = read.motors[rows]
         springs[~has] = 0.0
         sids, uids, names = self._identities()
         order = np.argsort(sids, kind="stable")
@@ -131,6 +133,7 @@ class _Joints:
             angular_limits=angular[order],
             linear_springs=springs[order, 0],
             angular_springs=springs[order, 1],
+            motors=motors[order],
             enabled=read.enabled[rows][order],
             interpenetrate=read.interpenetrate[rows][order],
             names=[names[row] for row in order.tolist()],

@@ -41,6 +41,7 @@ def draw_joint(
     maybe(draw, options, "interpenetrate", st.booleans())
     maybe(draw, options, "linear_spring", triples(numbers(extreme)))
     maybe(draw, options, "angular_spring", triples(numbers(extreme)))
+    maybe(draw, options, "motor", st.tuples(numbers(extreme), numbers(extreme).map(abs)))
     kind = draw(st.sampled_from(kinds))
     if extreme or kind == "general":
         _general(draw, script, first, second, kind, extreme, options)

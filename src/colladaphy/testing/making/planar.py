@@ -20,6 +20,7 @@ _across = st.floats(-3, 3)
 _sizes = st.floats(0.25, 1.5)
 _limits = st.sampled_from([(-math.inf, math.inf), (-0.5, 0.5), (0.0, math.inf), (-0.125, 1.0)])
 _spring = st.tuples(st.floats(0, 5e3), st.floats(0, 1e2), st.floats(-1, 1))
+_motor = st.tuples(st.floats(-5, 5), st.floats(0, 1e3))
 _materials = st.sampled_from(["iron", "oak", "fir"])
 
 
@@ -92,6 +93,7 @@ def _joint(draw: st.DrawFn, script: Script, bodies: list[Body], kind: str) -> No
         options["axis"] = _inside(first, draw(st.sampled_from([(0, 1, 0), (0, -1, 0)])))
         maybe(draw, options, "limits", _limits)
         maybe(draw, options, "angular_spring", _spring)
+        maybe(draw, options, "motor", _motor)
     elif kind == "slider":
         angle = draw(_across)
         options["axis"] = _inside(first, (math.cos(angle), 0, math.sin(angle)))
