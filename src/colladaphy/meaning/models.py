@@ -43,6 +43,14 @@ class Parts:
         self._own: dict[tuple[int, str], dict[int, dict[str, int]]] = {}
         self._all: dict[tuple[int, int, str], frozenset[str]] = {}
         self._models: dict[tuple[int, int], tuple[Resource, int] | None] = {}
+        self._texts: dict[tuple[int, int, str], str | None] = {}
+
+    def _text(self, home: Resource, element: int, name: str) -> str | None:
+        """An attribute of an element, which is asked for again and again."""
+        key = (id(home), element, name)
+        if key not in self._texts:
+            self._texts[key] = home.columns.attribute_of(element, name)
+        return self._texts[key]
 
     def model(self, resource: Resource, instance: int) -> tuple[Resource, int] | None:
         """The model that an instance_physics_model refers to; None where it cannot be found."""
@@ -92,7 +100,7 @@ class Parts:
         file, head, sids = split_reference(reference)
         if file:
             return None
-        id = home.columns.attribute_of(model, "id")
+        id = self._text(home, model, "id")
         path = sids if head == "." or head == id else [head, *sids]
         where: tuple[Resource, int] | None = (home, model)
         for step in path[:-1]:
@@ -106,11 +114,11 @@ class Parts:
         """The model that is instanced in one by the sid of the instance, or by its own id."""
         instances = self.own(home, "instance_physics_model").get(model, {}).values()
         for instance in instances:
-            if home.columns.attribute_of(instance, "sid") == name:
+            if self._text(home, instance, "sid") == name:
                 return self.model(home, instance)
         for instance in instances:
             found = self.model(home, instance)
-            if found is not None and found[0].columns.attribute_of(found[1], "id") == name:
+            if found is not None and self._text(*found, "id") == name:
                 return found
         return None
 
