@@ -53,6 +53,7 @@ def test_the_wheel_holds_schema_and_generated_package(wheel: Path) -> None:
         "colladaphy/__init__.py",
         "colladaphy/py.typed",
         "colladaphy/gate/schema.py",
+        "colladaphy/validation/reporters/report.schema.json",
         "colladaphy_schema/__init__.py",
         "colladaphy_schema/py.typed",
     } <= names

@@ -55,6 +55,8 @@ def check(job: Job) -> Checked:
     except InputError as error:
         named = [replace(found, file=found.file or job.name) for found in error.findings]
         return Checked(Report(job.name, named), settings, readable=False)
+    except MemoryError:
+        return _unchecked(job, "There is not enough memory for it.")
     if report.file is None:
         report = Report(job.name, [replace(f, file=f.file or job.name) for f in report])
     report, ignored = settings.apply(report)
@@ -67,11 +69,38 @@ def check_all(jobs: Sequence[Job], workers: int = 1) -> Iterator[Checked]:
         yield from map(check, jobs)
         return
     from concurrent.futures import ProcessPoolExecutor
+    from concurrent.futures.process import BrokenProcessPool
     from multiprocessing import get_context
 
     # Each process starts afresh: a copy of this one would share its locks.
-    pool = ProcessPoolExecutor(min(workers, len(jobs)), mp_context=get_context("spawn"))
+    pool = ProcessPoolExecutor(
+        min(workers, len(jobs)), mp_context=get_context("spawn"), initializer=_end_when_interrupted
+    )
+    done = 0
     try:
-        yield from pool.map(check, jobs)
+        for result in pool.map(check, jobs):
+            done += 1
+            yield result
+    except BrokenProcessPool:
+        why = "The processes that check files have ended by themselves, perhaps for lack of memory."
+        for job in jobs[done:]:
+            yield _unchecked(job, why)
     finally:
         pool.shutdown(cancel_futures=True)
+
+
+def _unchecked(job: Job, why: str) -> Checked:
+    from colladaphy.source import rules
+
+    hint = "Check it by itself, one file at a time (-j 1), on a machine with more memory."
+    finding = rules.UNREADABLE.at(
+        message=f"The file was not checked. {why}", file=job.name, hint=hint
+    )
+    return Checked(Report(job.name, [finding]), job.settings, readable=False)
+
+
+def _end_when_interrupted() -> None:
+    """In a process that checks: no traceback where somebody stops the command."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
