@@ -41,6 +41,8 @@ from colladaphy.testing.foreign_documents import (
     ForeignDocument,
     foreign_documents,
 )
+from colladaphy.testing.importers import CHECKS, check_importer
+from colladaphy.testing.kit.report import ImporterReport
 from colladaphy.testing.making.crowds import crowd
 from colladaphy.testing.mutations import MUTATIONS, mutants
 from colladaphy.testing.physics import physics_documents
@@ -50,6 +52,7 @@ del _hypothesis
 
 __all__ = [
     "AREAS",
+    "CHECKS",
     "EDITS",
     "FOREIGN_PRODUCERS",
     "JOINTS",
@@ -59,7 +62,9 @@ __all__ = [
     "Component",
     "Coverage",
     "ForeignDocument",
+    "ImporterReport",
     "LinkedFiles",
+    "check_importer",
     "covering_documents",
     "crowd",
     "documents",

@@ -1,0 +1,1 @@
+"""The battery for importers: its checks, and the report of what they found."""
