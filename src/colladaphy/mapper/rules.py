@@ -139,6 +139,14 @@ LINK_UNCLEAR = Rule(
     "COLLADA 1.5 §bind_joint_axis",
     why="The joint would hold the wrong body.",
 )
+FORCE_FIELD = Rule(
+    "load-force-field",
+    _WARNING,
+    "The scene has force fields, which a World has not.",
+    "Say what they do by Simulation(forces=...); they stay in the document.",
+    "COLLADA 1.5 §force_field",
+    why="Bodies move as if there were none.",
+)
 JOINT_EMPTY = Rule(
     "kinematics-joint-empty",
     _INFO,
@@ -285,6 +293,7 @@ RULES = (
     ROBOT_EMPTY,
     LINK_IN_WORLD,
     LINK_UNCLEAR,
+    FORCE_FIELD,
     JOINT_EMPTY,
     JOINT_UNMAPPED,
     JOINT_FOLLOWS,

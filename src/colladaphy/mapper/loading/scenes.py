@@ -44,6 +44,10 @@ class SceneValues:
         self.time_step = float(steps[0]) if steps is not None and len(steps) else None
         assert common.ordinals is not None
         self._common = int(common.ordinals[0]) if len(common) else ordinal
+        self.fields: list[int] = []
+        """The elements of the force fields that act in it."""
+        for fields in (rows.instance_force_field, rows.instance_physics_model.instance_force_field):
+            self.fields += [] if fields.ordinals is None else fields.ordinals.tolist()
         worlds, _ = first_of(rows, rows.technique, "world")
         self._profile = worlds if len(worlds) else None
 
@@ -140,6 +144,9 @@ def apply_scenes(
 ) -> None:
     """Give the World the values of the scenes that are loaded into it: those of the first."""
     for place, scene in enumerate(scenes):
+        if scene.fields:
+            message = f"{len(scene.fields)} force fields of the scene are not in the World."
+            report.note(rules.FORCE_FIELD, min(scene.fields), message, home=scene.home)
         if place == 0:
             scene.apply(world, report, prefer)
             continue
