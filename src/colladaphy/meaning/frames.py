@@ -33,12 +33,14 @@ _ANGLE = 2.0
 
 
 class _Placed:
-    """Where the instances of bodies stand."""
+    """Where the instances of those bodies stand that constraints hold."""
 
     def __init__(self, context: Context) -> None:
-        nodes = nodes_of(context)
+        nodes, bodies = nodes_of(context), bodies_of(context)
         instances = context.ordinals("instance_rigid_body").astype(np.int64)
-        self.rows = {element: row for row, element in enumerate(instances.tolist())}
+        mine = bodies.body[np.searchsorted(bodies.elements, instances)]
+        held = np.isin(mine, constraints_of(context).bodies) & (mine >= 0)
+        instances, mine = instances[held], mine[held]
         odd = unclear_nodes(context)
         targets = [nodes.targets.get(element, -1) for element in instances.tolist()]
         unknown = doubtful(context)
@@ -69,16 +71,15 @@ class _Placed:
         self.poses = poses
         self.by_model: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
         """Instances by the instance of the model, and the row of the body."""
-        bodies = bodies_of(context)
-        for row, (element, model) in enumerate(zip(instances.tolist(), models, strict=True)):
-            self.by_model[model, int(bodies.body[bodies.row(element)])].append(row)
+        for row, key in enumerate(zip(models, mine.tolist(), strict=True)):
+            self.by_model[key].append(row)
 
     def of_nodes(self, elements: Array) -> Poses:
         """World poses of nodes; those that are not there, or in a circle, are not moved."""
         poses = Poses.none(len(elements))
         placement = self.context.placement
         there = np.flatnonzero(elements >= 0)
-        rows = np.array([placement.nodes.row_of(0, int(e)) for e in elements[there]], np.int64)
+        rows = placement.nodes.rows_of(0, elements[there])
         good = rows >= 0
         there, rows = there[good], rows[good]
         if len(rows):

@@ -39,7 +39,8 @@ class Nodes:
             if target in nodes:
                 self.holders[target].append(int(context.parent[reference.element]))
         self._places: dict[int, int] = {}
-        self._shown = self._scenes()
+        self.shown = self._scenes()
+        """The visual scenes that are seen."""
 
     def _scenes(self) -> set[int]:
         """The visual scenes that are seen; all where none is instanced."""
@@ -70,7 +71,7 @@ class Nodes:
         if node not in self._places:
             self._places[node] = 0  # for circles
             parent = self.parents[node]
-            here: int = int(parent in self._shown)
+            here: int = int(parent in self.shown)
             if parent in self.parents:
                 here = self.places(parent)
             here += sum(map(self.places, self.holders.get(node, ())))

@@ -112,7 +112,15 @@ def _apart(context: Context) -> Iterator[Hit]:
     instances = np.array(sorted(nodes.targets), np.int64)
     if not len(instances):
         return
-    scenes = context.ancestor(instances, "physics_scene", "physics_model").tolist()
+    above = context.ancestor(instances, "physics_scene", "physics_model")
+    alone = not nodes.holders and not _nested(nodes)
+    if alone:
+        # Nearly always every body has a node of its own.
+        targets = np.array([nodes.targets[each] for each in instances.tolist()], np.int64)
+        keys = (above * len(context.parent) + targets)[targets >= 0]
+        if len(np.unique(keys)) == len(keys):
+            return
+    scenes = above.tolist()
     twice = {hit.element for hit in ends(context)}
     movers: dict[tuple[int, int], int] = {}
     for instance, scene in zip(instances.tolist(), scenes, strict=True):
@@ -123,7 +131,7 @@ def _apart(context: Context) -> Iterator[Hit]:
         if first != instance and instance not in twice:
             message = f"{context.label(target)} is moved by another body, too."
             yield Hit(physics_rules.NODE_SHARED, instance, message, (first, target), "target")
-    if not nodes.holders and not _nested(nodes):
+    if alone:
         return
     for instance, scene in zip(instances.tolist(), scenes, strict=True):
         target = nodes.targets[instance]
@@ -147,18 +155,19 @@ def _nested(nodes: Nodes) -> bool:
 def nowhere(context: Context) -> Iterator[Hit]:
     """Bodies of scenes in effect whose nodes are in no visual scene that is seen."""
     nodes = nodes_of(context)
+    shown, parents = nodes.shown, nodes.parents
     lost = [
         (instance, target)
         for instance, target in nodes.targets.items()
-        if target >= 0 and not nodes.places(target)
+        if target >= 0 and parents[target] not in shown and not nodes.places(target)
     ]
     if not lost:
         return
     references = context.references("url", "instance_physics_scene")
-    shown = {context.target(reference.text) for reference in references}
+    active = {context.target(reference.text) for reference in references}
     scenes = context.ancestor(np.array([instance for instance, _ in lost]), "physics_scene")
     for (instance, target), scene in zip(lost, scenes.tolist(), strict=True):
-        if scene in shown:
+        if scene in active:
             message = f"{context.label(target)} stands in no visual scene that is instanced."
             yield Hit(link_rules.NODE_NOWHERE, instance, message, (target,), "target")
 

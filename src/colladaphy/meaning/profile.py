@@ -134,16 +134,16 @@ def ranges(context: Context) -> Iterator[Hit]:
             shown = " ".join(f"{value:g}" for value in lists[row].tolist())
             yield Hit(profile_rules.VALUE, int(elements[row]), f"<pe:{name}> is {shown}.")
     tensors, _, values = profile.values("inertia", 9, "body", "shape", "union")
-    for element, value in zip(tensors.tolist(), values, strict=True):
-        size = np.abs(value).max()
-        if not 0.0 < size < np.inf:
-            continue
-        matrix = (value / size).reshape(3, 3)
-        one, two, three = np.linalg.eigvalsh((matrix + matrix.T) / 2.0)
-        if one < -1e-9 * abs(three) or one + two < three * (1.0 - 1e-3):
-            shown = " ".join(f"{moment * size:g}" for moment in (one, two, three))
-            message = f"The principal moments of inertia are {shown}."
-            yield Hit(profile_rules.VALUE, element, message)
+    sizes = np.abs(values).max(axis=1, initial=0.0)
+    some = np.flatnonzero((sizes > 0.0) & (sizes < np.inf))
+    matrices = (values[some] / sizes[some, None]).reshape(-1, 3, 3)
+    moments = np.linalg.eigvalsh((matrices + matrices.transpose(0, 2, 1)) / 2.0)
+    one, two, three = moments.T
+    wrong = (one < -1e-9 * np.abs(three)) | (one + two < three * (1.0 - 1e-3))
+    for row in np.flatnonzero(wrong).tolist():
+        shown = " ".join(f"{moment * sizes[some[row]]:g}" for moment in moments[row])
+        message = f"The principal moments of inertia are {shown}."
+        yield Hit(profile_rules.VALUE, int(tensors[some[row]]), message)
     for name in ("linear_limits", "angular_limits"):
         lower, around, low_values = profile.values("min", 3, name)
         _, _, high_values = profile.values("max", 3, name)

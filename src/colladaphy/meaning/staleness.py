@@ -144,10 +144,8 @@ def motions(context: Context) -> Iterator[Hit]:
     if not len(elements):
         return
     table = context.placement.nodes
-    poses, _ = context.placement.poses(
-        np.array([table.row_of(0, node) for node in targets.tolist()], np.int64)
-    )
-    inner, single, plane = _inner_poses(context, holders.tolist())
+    poses, _ = context.placement.poses(table.rows_of(0, targets))
+    inner, single, plane = _inner_poses(context, holders)
     whole = poses.then(inner)
     mine, at = _matched(elements, turned)
     units = unit_quaternions(orientations[mine])
@@ -176,50 +174,48 @@ def _matched(elements: Array, wanted: Array) -> tuple[Array, Array]:
     return mine, at[mine]
 
 
-def _inner_poses(context: Context, instances: list[int]) -> tuple[Poses, Array, Array]:
+def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Array]:
     """The frames of Worlds' bodies in their rigid_bodies, whether the place is known, and planes.
 
     A body of one shape has the frame of that shape, one of several has its own.
     """
     bodies, shapes = bodies_of(context), shapes_of(context)
-    shape_rows = context.at(AttachmentRows, shapes.elements)
-    local = poses_of_steps(Steps.of(shape_rows))
+    rows = np.searchsorted(bodies.elements, instances)
+    body = bodies.body[rows]
+    order = np.argsort(shapes.holders, kind="stable")
+    holders = shapes.holders[order]
+    own = np.searchsorted(holders, rows) < np.searchsorted(holders, rows, side="right")
+    inherited = ~own & (body >= 0)
+    source = np.where(inherited, body, rows)
+    frames = context.ancestor(context.ordinals("mass_frame"), "rigid_body", "instance_rigid_body")
+    framed = np.isin(instances, frames)
+    framed |= inherited & np.isin(bodies.elements[source], frames)
+    begin = np.searchsorted(holders, source)
+    single = np.searchsorted(holders, source, side="right") - begin == 1
+    made = Poses.none(len(instances))
+    known, flat = np.zeros(len(instances), np.bool_), np.zeros(len(instances), np.bool_)
+    mine = np.flatnonzero(single)
+    shape = order[begin[mine]]
+    plane = np.isin(shape, context.children(shapes.rows, "plane", Rows).owner)
+    flat[mine[plane]] = True  # turned as its normal says
+    mine, shape = mine[~plane], shape[~plane]
+    # The body of a mesh stands at its centre of mass.
+    meshes = np.array([row for row, _ in shapes.meshes()], np.int64)
+    known[mine] = ~framed[mine] & ~np.isin(shape, meshes)
+    mine, shape = mine[~framed[mine]], shape[~framed[mine]]
+    made.put(
+        mine, poses_of_steps(Steps.of(context.at(AttachmentRows, shapes.elements))).take(shape)
+    )
     rods = np.zeros(len(shapes.elements), np.bool_)
     for name in ("capsule", "cylinder"):
         found = context.children(shapes.rows, name, Rows)
         height, _ = context.scalars(found, "height")
         rods[found.owner] = height != 0.0
-    planes = np.zeros(len(shapes.elements), np.bool_)
-    planes[context.children(shapes.rows, "plane", Rows).owner] = True
-    # The body of a mesh stands at its centre of mass.
-    meshes = {row for row, _ in shapes.meshes()}
-    order = np.argsort(shapes.holders, kind="stable")
-    holders = shapes.holders[order]
-    frames = set(context.ancestor(context.ordinals("mass_frame"), "rigid_body",
-                                  "instance_rigid_body").tolist())  # fmt: skip
-    made = Poses.none(len(instances))
-    known, flat = np.zeros(len(instances), np.bool_), np.zeros(len(instances), np.bool_)
-    for at, instance in enumerate(instances):
-        row = bodies.row(instance)
-        begin, end = np.searchsorted(holders, (row, row + 1))
-        if begin == end and row >= 0 and bodies.body[row] >= 0:
-            body = int(bodies.body[row])
-            begin, end = np.searchsorted(holders, (body, body + 1))
-            framed = instance in frames or int(bodies.elements[body]) in frames
-        else:
-            framed = instance in frames
-        if end - begin != 1:
-            continue
-        shape = int(order[begin])
-        if planes[shape]:
-            flat[at] = True  # turned as its normal says
-            continue
-        pose = local.take(np.array([shape]))
-        if rods[shape]:
-            turn = quaternion_product(pose.orientations, _ROD)
-            pose = Poses.of(1, pose.positions, turn, moved=pose.moved)
-        made.put(np.array([at]), pose if not framed else Poses.none(1))
-        known[at] = not framed and shape not in meshes
+    turning = mine[rods[shape]]
+    if len(turning):
+        pose = made.take(turning)
+        turn = quaternion_product(pose.orientations, np.broadcast_to(_ROD, (len(turning), 4)))
+        made.put(turning, Poses.of(len(turning), pose.positions, turn, moved=pose.moved))
     return made, known, flat
 
 
