@@ -69,16 +69,16 @@ def test_processes_that_die_leave_no_file_unmentioned(monkeypatch: pytest.Monkey
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of consoles are others there")
 def test_stopped_by_hand(tmp_path: Path) -> None:
-    nodes = b"<library_nodes>" + b'<node a="1"/>' * 20_000 + b"</library_nodes></COLLADA>"
-    for number in range(8):
+    nodes = b"<library_nodes>" + b'<node a="1"/>' * 3_000 + b"</library_nodes></COLLADA>"
+    for number in range(10, 40):
         (tmp_path / f"{number}.dae").write_bytes(VALID.replace(b"</COLLADA>", nodes))
     process = subprocess.Popen(
         [sys.executable, "-m", "colladaphy", "validate", ".", "-j", "2", "--format", "concise"],
         cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
     )  # fmt: skip
     assert process.stdout is not None
-    assert process.stdout.readline().startswith(b"0.dae:2:")  # so all processes have begun
+    assert process.stdout.readline().startswith(b"10.dae:3:")  # so all processes have begun
     os.killpg(process.pid, signal.SIGINT)
     out, err = process.communicate(timeout=120)
-    assert process.returncode == 130 and b"7.dae" not in out
+    assert process.returncode == 130 and b"39.dae" not in out
     assert b"Stopped." in err and b"Traceback" not in err
