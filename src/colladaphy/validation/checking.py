@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 from colladaphy.errors import InputError
@@ -73,12 +74,12 @@ def check_all(jobs: Sequence[Job], workers: int = 1) -> Iterator[Checked]:
     from multiprocessing import get_context
 
     # Each process starts afresh: a copy of this one would share its locks.
-    pool = ProcessPoolExecutor(
-        min(workers, len(jobs)), mp_context=get_context("spawn"), initializer=_end_when_interrupted
-    )
+    pool = ProcessPoolExecutor(min(workers, len(jobs)), mp_context=get_context("spawn"))
     done = 0
     try:
-        for result in pool.map(check, jobs):
+        with _uninterrupted():
+            results = pool.map(check, jobs)
+        for result in results:
             done += 1
             yield result
     except BrokenProcessPool:
@@ -86,7 +87,24 @@ def check_all(jobs: Sequence[Job], workers: int = 1) -> Iterator[Checked]:
         for job in jobs[done:]:
             yield _unchecked(job, why)
     finally:
-        pool.shutdown(cancel_futures=True)
+        # Where the run is stopped by hand, each process ends the file that it is at.
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Processes that begin here leave Ctrl-C to this one: if they died of it, locks would stay."""
+    import signal
+    import threading
+
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.SIG_DFL if before is None else before)
 
 
 def _unchecked(job: Job, why: str) -> Checked:
@@ -97,10 +115,3 @@ def _unchecked(job: Job, why: str) -> Checked:
         message=f"The file was not checked. {why}", file=job.name, hint=hint
     )
     return Checked(Report(job.name, [finding]), job.settings, readable=False)
-
-
-def _end_when_interrupted() -> None:
-    """In a process that checks: no traceback where somebody stops the command."""
-    import signal
-
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
