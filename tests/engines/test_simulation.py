@@ -18,6 +18,7 @@ from colladaphy.engines import (
     Simulation,
     Trajectory,
     angular_momentum,
+    checkpoint_rules,
     create_engine,
     engine_names,
     momentum,
@@ -41,8 +42,9 @@ def test_engines_keep_the_protocol(engine: Engine) -> None:
 
 
 def test_rules_are_all_listed_once() -> None:
-    assert len({rule.code for rule in RULES}) == len(RULES)
-    assert all(rule.stage == "engine" for rule in RULES)
+    rules = RULES + checkpoint_rules.RULES
+    assert len({rule.code for rule in rules}) == len(rules)
+    assert all(rule.stage == "engine" for rule in rules)
 
 
 def test_time_step_of_the_world_of_the_caller_or_assumed() -> None:

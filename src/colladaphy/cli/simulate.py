@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import os
 import shlex
 import signal
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,16 +17,16 @@ from colladaphy.cli.console import note, say
 from colladaphy.cli.files import (
     convention_option,
     limits_option,
-    refuse_same,
     source_of,
     target_of,
     units_options,
 )
+from colladaphy.cli.keeping import check_outputs, recorder_of, series
 from colladaphy.cli.progress import Bar, waiting
 
 if TYPE_CHECKING:
     from colladaphy.document import Document
-    from colladaphy.engines import Checkpoints, Engine, Simulation, Summary, Trajectory
+    from colladaphy.engines import Checkpoints, Engine, Simulation, Summary
     from colladaphy.findings import Finding
     from colladaphy.source.limits import Limits
     from colladaphy.world import World
@@ -36,7 +34,6 @@ if TYPE_CHECKING:
 __all__ = ["command"]
 
 EXIT_INTERRUPTED = 130
-_TRAJECTORIES = (".npz", ".zarr")
 
 
 @click.command("simulate")
@@ -140,7 +137,7 @@ def command(
     """
     from colladaphy.engines import Simulation
 
-    _check_outputs(source, target, trajectory)
+    check_outputs(source, target, trajectory)
     chosen = _engine(engine, settings)
     named = click.get_current_context().get_parameter_source("convention")
     repair = named is click.core.ParameterSource.COMMANDLINE
@@ -150,7 +147,7 @@ def command(
     if alone:
         note("warning: In another unit or other axes, OUT and checkpoints are the World alone.")
     goal = world.step_count + steps
-    checkpoints = _series(source, folder, keep, resume=resume, begin=bool(interval))
+    checkpoints = series(source, folder, keep, resume=resume, begin=bool(interval))
     if resume:
         with waiting("Setting up the engine"):
             simulation = Simulation.resume(checkpoints.folder, chosen, dt, seed, limits=limits)
@@ -170,7 +167,7 @@ def command(
             )
         _tell(simulation.report.findings)
     before = simulation.world.step_count
-    recorder = _recorder(trajectory, before) if trajectory else None
+    recorder = recorder_of(trajectory, before) if trajectory else None
     with _interruption() as interrupted:
         began = time.monotonic()
         progress = Bar(f"{Path(source).name or source}: step", goal - before, unit="steps")
@@ -203,33 +200,6 @@ def command(
     return EXIT_INTERRUPTED if stopped else 0
 
 
-def _series(
-    source: str, folder: str | None, keep: int, *, resume: bool, begin: bool
-) -> Checkpoints:
-    """The checkpoints of this run, which are never mixed with those of another."""
-    from colladaphy.engines import Checkpoints
-
-    if folder is None:
-        if source == "-" and (resume or begin):
-            raise click.UsageError("Give --checkpoint-dir where IN is standard input.")
-        folder = "stdin.checkpoints" if source == "-" else _beside(source)
-    checkpoints = Checkpoints(folder, keep=keep)
-    there = checkpoints.paths()
-    if resume and not there:
-        raise click.UsageError(f"There is no checkpoint in {folder}; start without --resume.")
-    if there and begin and not resume:
-        raise click.UsageError(
-            f"{folder} holds the checkpoints of a run already: go on with it (--resume), or name "
-            "another folder (--checkpoint-dir)."
-        )
-    if there and not resume:  # needed only if this run is interrupted
-        free = (Checkpoints(f"{folder}-{number}", keep=keep) for number in count(2))
-        checkpoints = next(series for series in free if not series.paths())
-    if begin and not resume:
-        checkpoints.begin()
-    return checkpoints
-
-
 def _write(simulation: Simulation, source: str, target: str) -> None:
     """Write the World back into the document, or by itself where that would lose other files."""
     document, world = simulation.document, simulation.world
@@ -259,54 +229,6 @@ def _is_same(scene: World, resumed: World) -> bool:
         note("warning: IN is not the scene of this checkpoint; the checkpoint goes on.")
         return False
     return True
-
-
-def _recorder(file: str, step_count: int) -> Trajectory | _Stream:
-    """What records to `file`, after what is there of the run up to the step it begins with."""
-    from colladaphy.engines import Trajectory
-
-    if Path(file).suffix == ".zarr":
-        return _Stream(file, step_count)
-    if step_count and Path(file).exists():
-        return Trajectory.load(file, until=step_count)
-    return Trajectory(file)
-
-
-class _Stream:
-    """A trajectory that is on disk but for its last records."""
-
-    def __init__(self, folder: str, step_count: int) -> None:
-        from colladaphy.engines import ZarrTrajectory
-
-        there = step_count > 0 and Path(folder).exists()
-        self._trajectory = ZarrTrajectory(folder, append_until=step_count if there else None)
-
-    def __call__(self, world: World) -> None:
-        self._trajectory(world)
-
-    def save_again(self) -> None:
-        """Write what is still in memory."""
-        self._trajectory.flush()
-
-
-def _check_outputs(source: str, target: str | None, trajectory: str | None) -> None:
-    """Refuse, before the run and not after it, what could not be written."""
-    if trajectory is not None:
-        if Path(trajectory).suffix not in _TRAJECTORIES:
-            known = " or ".join(_TRAJECTORIES)
-            message = f"{trajectory!r} ends in neither {known}."
-            raise click.BadParameter(message, param_hint="--trajectory")
-        refuse_same("--trajectory", trajectory, [source, *([] if target is None else [target])])
-    for option, name in (("OUT", target), ("--trajectory", trajectory)):
-        if name is None or name == "-":
-            continue
-        folder = Path(name).absolute().parent
-        if not folder.is_dir():
-            raise click.BadParameter(f"There is no folder {str(folder)!r}.", param_hint=option)
-        if not os.access(folder, os.W_OK):
-            raise click.BadParameter(f"{str(folder)!r} is not writable.", param_hint=option)
-        if option == "OUT" and Path(name).is_dir():
-            raise click.BadParameter(f"{name!r} is a folder.", param_hint=option)
 
 
 def _engine(name: str, settings: tuple[str, ...]) -> str | Engine:
@@ -357,10 +279,6 @@ def _again(folder: Path) -> str:
                 options += [parameter.opts[0], str(value)]
     options += ["--checkpoint-dir", str(folder), "--resume"]
     return shlex.join([*context.command_path.split(), *words, *options])
-
-
-def _beside(source: str) -> str:
-    return str(Path(source).with_suffix(".checkpoints"))
 
 
 def _read(

@@ -12,15 +12,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from colladaphy.engines.carrying import SceneDocument, save_scene
-from colladaphy.engines.digest import digest
-from colladaphy.engines.rules import (
+from colladaphy.engines.checkpoint_rules import (
     CHECKPOINT_BROKEN,
     CHECKPOINT_NONE,
     CHECKPOINT_OTHER_RUN,
     CHECKPOINT_STATELESS,
-    STEPS,
-    refuse,
 )
+from colladaphy.engines.digest import digest
+from colladaphy.engines.rules import STEPS, refuse
 from colladaphy.engines.state import recorded_digest
 from colladaphy.errors import ColladaError, EngineError
 from colladaphy.findings import Finding, Severity

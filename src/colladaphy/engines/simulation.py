@@ -10,19 +10,13 @@ from typing import TYPE_CHECKING, Self
 from weakref import ref
 
 from colladaphy.engines.carrying import SceneDocument, save_scene
+from colladaphy.engines.checkpoint_rules import STATE_NO_ENGINE
 from colladaphy.engines.checkpoints import Checkpoints, open_checkpoint
 from colladaphy.engines.diagnostics import ContactCount, Summary, summarise
 from colladaphy.engines.edits import Edits
 from colladaphy.engines.events import ContactEvent, ContactEvents
 from colladaphy.engines.protocol import Steerable
-from colladaphy.engines.rules import (
-    OVERTAKEN,
-    SEED_UNUSED,
-    STATE_NO_ENGINE,
-    STEPS,
-    TIME_STEP_DEFAULT,
-    refuse,
-)
+from colladaphy.engines.rules import OVERTAKEN, SEED_UNUSED, STEPS, TIME_STEP_DEFAULT, refuse
 from colladaphy.engines.selection import choose, create_engine
 from colladaphy.engines.state import recorded_options, unpack
 from colladaphy.errors import EngineError

@@ -17,15 +17,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from colladaphy.engines.digest import digest
-from colladaphy.engines.options import Value
-from colladaphy.engines.rules import (
+from colladaphy.engines.checkpoint_rules import (
     STATE_BROKEN,
     STATE_ENGINE,
     STATE_OPTIONS,
     STATE_STALE,
     STATE_VERSION,
 )
+from colladaphy.engines.digest import digest
+from colladaphy.engines.options import Value
 
 if TYPE_CHECKING:
     from colladaphy.findings import Finding

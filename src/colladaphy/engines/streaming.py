@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, Final, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.engines.rules import NOT_INSTALLED, TRAJECTORY
+from colladaphy.engines.checkpoint_rules import TRAJECTORY
+from colladaphy.engines.rules import NOT_INSTALLED
 from colladaphy.errors import EngineError, InputError
 from colladaphy.source.rules import UNREADABLE
 
