@@ -122,6 +122,15 @@ def test_wrong_usage(validate: Runner, arguments: list[str], words: str) -> None
     assert words in result.err
 
 
+@pytest.mark.parametrize("option", ["--write-baseline={}", "--report=json={}"])
+def test_documents_are_never_written_over(validate: Runner, option: str) -> None:
+    for arguments in (["good.dae"], ["."], ["*.dae"]):
+        result = validate(*arguments, option.format("./good.dae"))
+        assert (result.code, result.out) == (2, "")
+        assert "another file of this command" in result.err
+    assert Path("good.dae").read_text() == VALID
+
+
 def test_select_ignore_and_severity(validate: Runner) -> None:
     def found(*arguments: str) -> list[str]:
         return codes(validate(".", "--format", "json", *arguments))
@@ -272,6 +281,8 @@ def test_standard_input(validate: Runner, monkeypatch: pytest.MonkeyPatch) -> No
     Path("colladaphy.toml").unlink()
     given(VALID)
     assert validate("-", "good.dae", "-").lines[-1] == "2 files: 2 valid"
+    # Without -, the name of standard input is no other file's.
+    assert "^^^" in validate("sub/bad.DAE", "--stdin-name", "sub/bad.DAE").out
     given(VALID)
     result = validate("-", "--limit", "bytes=5")
     assert (result.code, "io-too-large" in result.out) == (2, True)

@@ -1,4 +1,7 @@
-"""Progress of long runs, on standard error while a person looks on."""
+"""Progress of runs over many files, on standard error while a person looks on.
+
+A plain line: it comes and goes with each file, between the lines of the report.
+"""
 
 from __future__ import annotations
 

@@ -11,7 +11,7 @@ import click
 from colladaphy.cli.choices import codes, outputs, patterns, severities, workers
 from colladaphy.cli.console import EXIT_FINDINGS, EXIT_IO, note, paint, say, say_findings
 from colladaphy.cli.counting import counting
-from colladaphy.cli.files import limits_option, source_of, target_of
+from colladaphy.cli.files import limits_option, refuse_same, source_of, target_of
 from colladaphy.findings import Severity
 from colladaphy.validation.formats import FORMATS
 
@@ -177,7 +177,7 @@ def command(files: tuple[str, ...], form: str, others: Sequence[tuple[str, str]]
         raise click.UsageError(f"--statistics is for the formats {' and '.join(_TEXT)}.")
     if chosen["config"] is not None and chosen["isolated"]:
         raise click.UsageError("--config and --isolated exclude each other.")
-    stdin = _standard_input(limits) if "-" in files else b""
+    stdin = _standard_input(limits) if "-" in files else None
     session = Session(
         Request(
             arguments=files,
@@ -188,9 +188,17 @@ def command(files: tuple[str, ...], form: str, others: Sequence[tuple[str, str]]
             **chosen,
         )
     )
+    for option, file in (
+        ("--write-baseline", write_baseline),
+        *(("--report", f) for _, f in others),
+    ):
+        if file not in (None, "-"):
+            refuse_same(option, file, session.files)
     kept: list[Checked] = []
-    results = _kept(counting(session.results(processes), session.total, "checking"), kept)
-    given = {chosen["stdin_name"] or "-": stdin} if isinstance(stdin, bytes) else {}
+    results = _kept(counting(session.results(processes), len(session.files), "checking"), kept)
+    given = {}
+    if isinstance(stdin, bytes):
+        given[chosen["stdin_name"] or "-"] = stdin
     sources = Sources(given, limits)
     if write_baseline is not None:
         _write_baseline(results, write_baseline)

@@ -45,8 +45,8 @@ class Request:
     """In place of the configuration's."""
     without_baseline: bool = False
     limits: Limits | None = None
-    stdin: bytes | InputError = b""
-    """What standard input gives, where it is an argument."""
+    stdin: bytes | InputError | None = None
+    """What standard input gives, or why it gives nothing, where it is an argument."""
     stdin_name: str | None = None
     """The name that standard input has in reports, and by which its settings are found."""
 
@@ -76,9 +76,10 @@ class Session:
         self._plan = [self._prepared(name) for name in gathered.files]
 
     @property
-    def total(self) -> int:
-        """How many documents are checked."""
-        return len(self._plan)
+    def files(self) -> list[str]:
+        """The names of the documents that are checked."""
+        return [job.name if isinstance(job, Job) else job.report.file or "-"
+                for job, _ in self._plan]  # fmt: skip
 
     @property
     def gone(self) -> int:
