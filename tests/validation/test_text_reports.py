@@ -110,6 +110,29 @@ def test_the_mark_is_below_the_place(
             assert cells[at] == above
 
 
+@pytest.mark.parametrize(
+    ("text", "mark"),
+    [
+        ("""<node name="x id='y'" id="b"/>""", 'id="b"'),
+        ("""<node pe:id = 'b' a=">"/>""", "pe:id = 'b'"),
+        ("""<node sid="a" name=">" id='b'>""", "id='b'"),
+        ("""<node/><node id="b"/>""", "<node"),
+        ("<node\u00e4 id=''/>", "id=''"),
+    ],
+)
+def test_the_attribute_is_found_in_its_tag(text: str, mark: str) -> None:
+    (_, row), (_, below) = excerpt(finding(line=1, column=1, attribute="id"), {1: text})
+    assert row[below.index("^") : len(below)] == mark
+
+
+def test_attributes_on_lines_of_their_own() -> None:
+    lines = {1: "<node", 2: 'name="two', 3: "id='no'", 4: 'lines"', 5: 'id="b">', 6: 'id="c"'}
+    *_, (number, _), (_, mark) = excerpt(finding(line=1, column=1, attribute="name"), lines)
+    assert (number, mark) == (2, "^" * len('name="two'))
+    *_, (number, _), (_, mark) = excerpt(finding(line=1, column=1, attribute="sid"), lines)
+    assert (number, mark) == (1, "^" * len("<node"))
+
+
 def test_long_lines_are_cut_around_the_mark() -> None:
     text = "<a/>" * 500 + '<node id="here"/>' + "<b/>" * 500
     (_, row), (_, mark) = excerpt(finding(line=1, column=2001, attribute="id"), {1: text})

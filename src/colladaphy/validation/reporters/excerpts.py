@@ -15,6 +15,10 @@ __all__ = ["Excerpt", "excerpt", "wanted_lines"]
 _WIDTH = 96
 _LEAD = 24
 _TAG = re.compile(r"<[^\s<>/]+")
+# One after the other, so that what stands in a value is no attribute and no end.
+_IN_TAG = re.compile(
+    r"""(?:[\w.-]+:)?(?P<name>[\w.-]+)\s*=\s*(?:"[^"]*(?:"|$)|'[^']*(?:'|$))|"[^"]*(?:"|$)|>"""
+)
 _MOST = 6
 """Lines of a start tag that are looked at for its attribute."""
 
@@ -64,24 +68,18 @@ def _span(finding: Finding, lines: Mapping[int, str]) -> tuple[int, int, int]:
         return finding.line, begin, len(text.rstrip())
     begin = finding.column - 1
     if finding.attribute is not None and text[begin : begin + 1] == "<":
-        name = re.escape(finding.attribute.rpartition("}")[2])
-        pattern = re.compile(rf"""(?<![\w.:-])(?:[\w.-]+:)?{name}\s*=\s*(?:"[^"]*"|'[^']*')""")
+        name = finding.attribute.rpartition("}")[2]
         number, start = finding.line, begin
         while number in lines:
-            stop = _end_of_tag(lines[number], start)
-            found = pattern.search(lines[number], start, stop)
-            if found:
-                return number, found.start(), found.end()
-            if stop < len(lines[number]):
-                break
-            number, start = number + 1, 0
+            line = lines[number]
+            for found in _IN_TAG.finditer(line, start):
+                if found[0] == ">":
+                    break
+                if found["name"] == name:
+                    return number, found.start(), found.end()
+            else:
+                number, start = number + 1, 0
+                continue
+            break
     tag = _TAG.match(text, begin)
     return finding.line, begin, tag.end() if tag else begin + 1
-
-
-def _end_of_tag(text: str, start: int) -> int:
-    """Where the start tag ends that is open at `start`; > in a value is no end of it."""
-    for found in re.finditer(r""""[^"]*"|'[^']*'|>""", text[start:]):
-        if found[0] == ">":
-            return start + found.end()
-    return len(text)
