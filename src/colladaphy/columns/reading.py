@@ -49,6 +49,7 @@ class Document:
         self._entities = b"&" in index.data
         self._blanked = b"\0" in index.data
         self._codes = codes_by_name(index, tags)
+        self._tags = tags
         self._attribute_rows: Array | None = None
         self._names: dict[int, str] | None = None
 
@@ -305,6 +306,8 @@ class Document:
                 len(index.attributed), dtype=np.int32
             )
         at = self._attribute_rows[mine]
+        if self._tags is not None:
+            return self._numbered(self._tags, mine, at, name)
         count = np.where(at >= 0, index.quotes[at] if len(index.quotes) else 0, 0)
         first = index.first_quote[at] if len(index.quotes) else at
         start = np.full(len(mine), -1, index.stop.dtype)
@@ -334,6 +337,22 @@ class Document:
             return None, Ranges(index.words, start, stop)
         there = np.flatnonzero(found)
         return there, Ranges(index.words, start[there], stop[there])
+
+    def _numbered(
+        self, tags: Tags, mine: Array, at: Array, name: str
+    ) -> tuple[Array | None, Ranges]:
+        """The same for elements whose kind of start tag says which attribute it is."""
+        index = self.index
+        number = tags.numbers(name)[tags.kinds[mine]]
+        there = None
+        if int(number.min(initial=0)) < 0:
+            there = np.flatnonzero(number >= 0)
+            number, at = number[there], at[there]
+            if len(there) == 0:
+                return there, Ranges(index.words, there, there)
+        quote = index.first_quote[at] + number * np.int32(2)
+        places = index.quote_places
+        return there, Ranges(index.words, places[quote] + 1, places[quote + 1])
 
     def _ends_with(self, ends: Array, key: bytes) -> Array:
         """Whether a key, with a blank before it, ends at each place."""

@@ -21,6 +21,8 @@ U = np.uint64
 _BLANKS: Final = (9, 10, 13, 32)
 _XMLNS: Final = int.from_bytes(b"xmlns", "little")
 _INSTANCE: Final = b"XMLSchema-instance"
+_MOST_ATTRIBUTES: Final = 64
+"""Of an element; each takes a round."""
 _MOST: Final = 1 << 22
 """Combinations up to which a table of all is quicker than sorting."""
 
@@ -44,6 +46,14 @@ class Tags:
     """Which of `declarations` it is."""
     declarations: list[bytes]
     """The different ones, as they are written."""
+
+    def numbers(self, name: str) -> Array:
+        """Which of the attributes has a name, for each kind (k,); -1 where none has."""
+        key = name.encode() + b"="
+        return np.array(
+            [next((n for n, text in enumerate(texts) if text.strip() == key), -1)
+             for texts in self.attributes], np.int8
+        )  # fmt: skip
 
 
 def compressed(keys: Array, size: int) -> tuple[Array, Array]:
@@ -77,8 +87,10 @@ def tags_of(index: Index) -> Tags:
     if not len(index.attributed):
         none = first[:0]
         return Tags(every, first, [()] * len(first), none, none, none, [])
-    names, codes = _attributes(index)
     count = index.quotes // 2
+    if int(count.max()) > _MOST_ATTRIBUTES:
+        raise NotPlain("very many attributes")
+    names, codes = _attributes(index)
     begin = np.cumsum(count) - count
     mine = every[index.attributed]
     todo = np.arange(len(count))
@@ -95,6 +107,8 @@ def tags_of(index: Index) -> Tags:
         mine[todo] = numbers + base
     every[index.attributed] = mine
     every, first = compressed(every, len(spellings))
+    if len(first) <= np.iinfo(np.int16).max:
+        every = every.astype(np.int16)
     ids = _are(names, lambda text: text.strip() == b"id=")
     declare = _are(names, lambda text: text.lstrip().startswith(b"xmlns"))
     places = np.flatnonzero(declare[codes])

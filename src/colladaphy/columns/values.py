@@ -83,7 +83,8 @@ def _empty(ranges: Ranges, spelling: Spelling) -> Array:
     """Which texts have nothing in them, but for comments."""
     empty = ranges.stops <= ranges.starts
     if spelling.blanked:
-        rows = np.flatnonzero(~empty)
+        first = ranges.all_words.data[ranges.starts]
+        rows = np.flatnonzero(~empty & (first == 0))
         empty[rows] = [not text.strip(b"\0") for text in ranges.take(rows).texts()]
     return np.asarray(empty)
 

@@ -10,7 +10,7 @@ import re
 from colladaphy.source.limits import LIBXML2_DEPTH, Limits
 from colladaphy.source.xml import element_count, root_start
 
-__all__ = ["after_declaration", "in_short_pieces", "is_plain"]
+__all__ = ["after_declaration", "in_short_pieces", "is_plain", "next_break"]
 
 _S = rb"[ \t\r\n]"
 _START = re.compile(
@@ -20,7 +20,6 @@ _START = re.compile(
     rb"(?:" + _S + rb"+standalone=[\"'](?:yes|no)[\"'])?" + _S + rb"*\?>)?" + _S + rb"*(?=<)"
 )
 _ROOT = re.compile(rb"<(?:[A-Za-z_][A-Za-z0-9_.-]*:)?COLLADA[ \t\r\n/>]")
-_BREAK = re.compile(rb"<[!?]")
 
 _WINDOW = 4096
 _SHORTEST_LIMIT = 1000
@@ -82,22 +81,35 @@ def _runs_are_short(data: bytes, longest: int, position: int) -> bool:
 
 def _breaks_are_few(data: bytes, longest: int, position: int) -> bool:
     """Comments and instructions; CDATA is left to trees."""
-    if data.find(b"!", position) < 0 and data.find(b"?", position) < 0:
-        return True
+    comment, instruction = next_break(data, b"!", position), next_break(data, b"?", position)
     beside = 0
     last = -1
-    while (found := _BREAK.search(data, position)) is not None:
-        begin = found.start()
-        if data.startswith(b"<!--", begin):
-            position = data.find(b"-->", begin + 4)
-        elif data.startswith(b"<?", begin):
-            position = data.find(b"?>", begin + 2)
+    while comment >= 0 or instruction >= 0:
+        if instruction < 0 or 0 <= comment < instruction:
+            if not data.startswith(b"<!--", comment):
+                return False
+            begin, position = comment, data.find(b"-->", comment + 4)
         else:
-            return False
+            begin, position = instruction, data.find(b"?>", instruction + 2)
         if position < 0 or position - begin > longest:
             return False
         beside += begin == last
         if beside > _MOST_BREAKS:
             return False
         last = data.find(b"<", position)
+        if 0 <= comment < position:
+            comment = next_break(data, b"!", position)
+        if 0 <= instruction < position:
+            instruction = next_break(data, b"?", position)
     return True
+
+
+def next_break(data: bytes, mark: bytes, start: int) -> int:
+    """The next ``<`` that a mark (``!``, ``?``) follows; -1 if there is none.
+
+    To look for the rarer character takes a tenth of the time.
+    """
+    place = data.find(mark, start + 1)
+    while place >= 0 and data[place - 1 : place] != b"<":
+        place = data.find(mark, place + 1)
+    return max(place - 1, -1)
