@@ -87,6 +87,57 @@ def test_many_corners_take_little_time(count: int) -> None:
     assert time.process_time() - start < 0.5  # half a minute, once
 
 
+def comb(teeth: int, tall: float, *, square: bool) -> list[Point]:
+    """Teeth on a bar, counter-clockwise."""
+    up: list[Point] = []
+    for at in range(teeth):
+        tip = [(at + 0.5, 1.0 + tall)]
+        wide = [(float(at), 1.0 + tall), (at + 0.5, 1.0 + tall), (at + 0.5, 1.0)]
+        up += [(float(at), 1.0), *(wide if square else tip)]
+    return [(-1.0, 0.0), (float(teeth), 0.0), *up[::-1]]
+
+
+def spiral(count: int) -> list[Point]:
+    """A band wound twenty times: all but a few of its corners are no ears for long."""
+    turns = [40 * math.pi * at / count for at in range(count)]
+    outer = [((1 + t) * math.cos(t), (1 + t) * math.sin(t)) for t in turns]
+    inner = [((t - 0.5) * math.cos(t), (t - 0.5) * math.sin(t)) for t in turns]
+    return outer + inner[::-1]
+
+
+LONG = {
+    "comb": comb(10_000, 1.0, square=False),
+    "tall comb": comb(10_000, 10_000.0, square=False),
+    "square comb": comb(5_000, 1.0, square=True),
+    "spiral": spiral(10_000),
+    "star": star(20_000),
+    "line": [(float(at), 0.0) for at in range(20_000)],
+    "point": [(1.0, 2.0)] * 20_000,
+}
+
+
+@pytest.mark.parametrize("name", list(LONG))
+@pytest.mark.parametrize("clockwise", [False, True])
+def test_twenty_thousand_corners_are_cut_in_seconds(name: str, clockwise: bool) -> None:
+    ring = LONG[name][::-1] if clockwise else LONG[name]
+    start = time.process_time()
+    triangles = triangles_of(ring, [])
+    assert time.process_time() - start < 6.0  # 21 s for a comb, and for ever for a spiral, once
+    assert len(triangles) == len(ring) - 2
+    corners = np.array(ring)[np.array(triangles)]
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    areas = (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]) / 2
+    whole = area(ring)
+    assert math.isclose(areas.sum(), whole, rel_tol=1e-9, abs_tol=1e-6)
+    assert np.all(areas * math.copysign(1.0, whole) >= -1e-9 * abs(whole))
+
+
+@settings(max_examples=60, deadline=None)
+@given(st.lists(st.tuples(st.integers(0, 9), st.integers(0, 9)), min_size=3, max_size=60))
+def test_rings_that_cross_themselves_end(ring: list[Point]) -> None:
+    assert len(triangles_of(ring, [])) == len(ring) - 2
+
+
 _CUBE = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], dtype=float)
 _FACES = np.array([
     (0, 1, 3), (0, 3, 2), (4, 6, 7), (4, 7, 5), (0, 4, 5), (0, 5, 1), (2, 3, 7), (2, 7, 6),

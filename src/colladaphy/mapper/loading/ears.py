@@ -1,8 +1,8 @@
 """Polygons with holes as triangles, by cutting off ears.
 
 A corner is an ear where the polygon turns left and no other corner lies in its triangle; only
-corners that turn right can. They stand in a grid, so that few of them are looked at for each ear.
-Holes are joined to the outline first, by a bridge there and back.
+corners that turn right can. They are sorted by both axes, so that few of them are looked at for
+each ear. Holes are joined to the outline first, by a bridge there and back.
 """
 
 from __future__ import annotations
@@ -10,11 +10,16 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from colladaphy.links.sums import exact_sum
 
 __all__ = ["triangles_of"]
 
 Point = tuple[float, float]
+
+_FEW = 24
+"""Corners that are looked at one by one in less time than it takes to sort them."""
 
 
 def triangles_of(outline: Sequence[Point], holes: Sequence[Sequence[Point]]) -> list[list[int]]:
@@ -112,78 +117,96 @@ class _Cutting:
         count = len(ring)
         self._before = [(at - 1) % count for at in range(count)]
         self._after = [(at + 1) % count for at in range(count)]
-        self._blocking: dict[int, tuple[int, int]] = {}
-        """The corners that do not turn left, and where they are in the grid."""
-        self._cells: dict[tuple[int, int], set[int]] = {}
-        xs, ys = [point[0] for point in self._points], [point[1] for point in self._points]
-        self._low = min(xs), min(ys)
-        lines = max(1, math.isqrt(count))
-        size = max(max(xs) - self._low[0], max(ys) - self._low[1]) / lines
-        self._size = size if size > 0.0 and math.isfinite(size) else 1.0
-        for at in range(count):
-            self._note(at)
+        self._blocking = {at for at in range(count) if not self._turns_left(at)}
+        """The corners that do not turn left: no others can lie in the triangle of an ear."""
+        self._hopeful = bytearray(at not in self._blocking for at in range(count))
+        """Corners that may be ears; of the others it is known what keeps them from being one."""
+        self._waiting: dict[int, list[int]] = {}
+        """The corners that each keeps from being ears."""
+        self._sorted: _Blocking | None = None
+        self._unsorted: set[int] = set()
+        self._sort()
 
-    def _cell(self, point: Point) -> tuple[int, int]:
-        return (int((point[0] - self._low[0]) / self._size),
-                int((point[1] - self._low[1]) / self._size))  # fmt: skip
+    def _sort(self) -> None:
+        """Sort what blocks, once there is more of it than is quickly looked through."""
+        many = len(self._blocking) > _FEW
+        self._sorted = _Blocking(sorted(self._blocking), self._points) if many else None
+        self._unsorted = set() if many else self._blocking.copy()
 
     def _corner(self, at: int) -> tuple[Point, Point, Point]:
         points = self._points
         return points[self._before[at]], points[at], points[self._after[at]]
 
+    def _turns_left(self, at: int) -> bool:
+        return _turn(*self._corner(at)) > 0.0
+
+    def _forget(self, at: int) -> None:
+        """A corner blocks no more: those that it kept from being ears may be some now."""
+        if at not in self._blocking:
+            return
+        self._blocking.discard(at)
+        for other in self._waiting.pop(at, ()):
+            self._hopeful[other] = self._after[other] >= 0 and other not in self._blocking
+        if at in self._unsorted:
+            self._unsorted.discard(at)
+        elif self._sorted is not None:
+            self._sorted.drop(at)
+            if 2 * len(self._blocking) < self._sorted.count:
+                self._sort()
+
     def _note(self, at: int) -> None:
-        """Put a corner into the grid, or take it out once it turns left."""
-        turns_left = _turn(*self._corner(at)) > 0.0
+        """Look at a corner anew after one beside it was cut off."""
+        turns_left = self._turns_left(at)
+        self._hopeful[at] = turns_left
         if turns_left:
             self._forget(at)
         elif at not in self._blocking:
-            cell = self._blocking[at] = self._cell(self._points[at])
-            self._cells.setdefault(cell, set()).add(at)
-
-    def _forget(self, at: int) -> None:
-        cell = self._blocking.pop(at, None)
-        if cell is not None:
-            self._cells[cell].discard(at)
+            # Straight on, or a turn by rounding, or the ring crosses itself.
+            self._blocking.add(at)
+            self._unsorted.add(at)
+            if len(self._unsorted) > _FEW:
+                self._sort()
 
     def triangles(self) -> list[list[int]]:
         """All of them, in the order in which they are cut off."""
         made: list[list[int]] = []
-        left = len(self._ring)
-        at, tried = 0, 0
-        while left > 3:
-            if self._is_ear(at) or tried > left:
-                # A ring that crosses itself may have no ear: then any corner has to do.
-                before, after = self._before[at], self._after[at]
-                made.append([self._ring[before], self._ring[at], self._ring[after]])
-                self._after[before], self._before[after] = after, before
-                self._forget(at)
-                self._note(before)
-                self._note(after)
-                left -= 1
-                tried = 0
-                # Not at its neighbour again, so that no long, thin fan comes about.
-                at = self._after[after]
-            else:
-                at = self._after[at]
-                tried += 1
-        if left == 3:
+        at = 0
+        for _ in range(len(self._ring) - 3):
+            at = self._next_ear(at)
+            before, after = self._before[at], self._after[at]
+            made.append([self._ring[before], self._ring[at], self._ring[after]])
+            self._after[before], self._before[after] = after, before
+            self._hopeful[at], self._after[at] = False, -1
+            self._forget(at)
+            self._note(before)
+            self._note(after)
+            # Not at its neighbour again, so that no long, thin fan comes about.
+            at = self._after[after]
+        if len(self._ring) >= 3:
             made.append([self._ring[self._before[at]], self._ring[at], self._ring[self._after[at]]])
         return made
 
-    def _is_ear(self, at: int) -> bool:
-        if at in self._blocking:
-            return False
-        one, two, three = self._corner(at)
-        low = self._cell((min(one[0], two[0], three[0]), min(one[1], two[1], three[1])))
-        high = self._cell((max(one[0], two[0], three[0]), max(one[1], two[1], three[1])))
-        if (high[0] - low[0] + 1) * (high[1] - low[1] + 1) >= len(self._blocking):
-            return not any(self._blocks(other, one, two, three) for other in self._blocking)
-        return not any(
-            self._blocks(other, one, two, three)
-            for x in range(low[0], high[0] + 1)
-            for y in range(low[1], high[1] + 1)
-            for other in self._cells.get((x, y), ())
-        )
+    def _next_ear(self, start: int) -> int:
+        """The first ear from a corner on; that corner itself where there is none.
+
+        A ring that crosses itself may have no ear: then any corner has to do.
+        """
+        at = start
+        while (at := self._hopeful.find(1, at)) >= 0 or (at := self._hopeful.find(1)) >= 0:
+            blocker = self._blocker(at)
+            if blocker < 0:
+                return at
+            self._hopeful[at] = False
+            self._waiting.setdefault(blocker, []).append(at)
+        return start
+
+    def _blocker(self, at: int) -> int:
+        """A corner that lies in the triangle of another one; -1 for none."""
+        corner = self._corner(at)
+        for other in self._unsorted:
+            if self._blocks(other, *corner):
+                return other
+        return -1 if self._sorted is None else self._sorted.blocker(corner)
 
     def _blocks(self, other: int, one: Point, two: Point, three: Point) -> bool:
         point = self._points[other]
@@ -194,3 +217,47 @@ class _Cutting:
             and _turn(two, three, point) >= 0.0
             and _turn(three, one, point) >= 0.0
         )
+
+
+class _Blocking:
+    """Many corners that may block ears, by x and by y: of a triangle, few are looked at."""
+
+    def __init__(self, corners: list[int], points: list[Point]) -> None:
+        self.count = len(corners)
+        """How many there were when they were sorted."""
+        places = np.array([points[at] for at in corners])
+        orders = [np.argsort(places[:, axis], kind="stable") for axis in (0, 1)]
+        self._corners = [np.array(corners)[order] for order in orders]
+        self._xs, self._ys = ([places[order, axis] for order in orders] for axis in (0, 1))
+        self._keys = (self._xs[0], self._ys[1])
+        self._there = [np.ones(self.count, np.bool_) for _ in (0, 1)]
+        self._at = [
+            dict(zip(known.tolist(), range(self.count), strict=True)) for known in self._corners
+        ]
+
+    def drop(self, corner: int) -> None:
+        """A corner that blocks no more."""
+        for there, at in zip(self._there, self._at, strict=True):
+            there[at[corner]] = False
+
+    def blocker(self, corner: tuple[Point, Point, Point]) -> int:
+        """One that lies in a triangle, its edges included, but not at a corner; -1 for none."""
+        spans = []
+        for axis in (0, 1):
+            ends = corner[0][axis], corner[1][axis], corner[2][axis]
+            begin = int(self._keys[axis].searchsorted(min(ends), "left"))
+            end = int(self._keys[axis].searchsorted(max(ends), "right"))
+            spans.append((end - begin, axis, begin, end))
+        size, axis, begin, end = min(spans)
+        if size <= 0:
+            return -1
+        x, y = self._xs[axis][begin:end], self._ys[axis][begin:end]
+        inside = self._there[axis][begin:end].copy()
+        (ax, ay), (bx, by), (cx, cy) = corner
+        inside &= (bx - ax) * (y - by) - (by - ay) * (x - bx) >= 0.0
+        inside &= (cx - bx) * (y - cy) - (cy - by) * (x - cx) >= 0.0
+        inside &= (ax - cx) * (y - ay) - (ay - cy) * (x - ax) >= 0.0
+        for at in np.flatnonzero(inside).tolist():
+            if (float(x[at]), float(y[at])) not in corner:
+                return int(self._corners[axis][begin + at])
+        return -1
