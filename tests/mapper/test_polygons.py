@@ -101,7 +101,7 @@ def spiral(count: int) -> list[Point]:
     """A band wound twenty times: all but a few of its corners are no ears for long."""
     turns = [40 * math.pi * at / count for at in range(count)]
     outer = [((1 + t) * math.cos(t), (1 + t) * math.sin(t)) for t in turns]
-    inner = [((t - 0.5) * math.cos(t), (t - 0.5) * math.sin(t)) for t in turns]
+    inner = [((t + 0.5) * math.cos(t), (t + 0.5) * math.sin(t)) for t in turns]
     return outer + inner[::-1]
 
 
