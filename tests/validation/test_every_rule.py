@@ -189,7 +189,8 @@ def image(attribute: str) -> str:
 def evaluation(enable: str) -> str:
     return (
         f"<library_visual_scenes><visual_scene><node id='c'/><evaluate_scene enable='{enable}'>"
-        "<render camera_node='#c'><layer>a</layer></render></evaluate_scene></visual_scene></library_visual_scenes>"
+        "<render camera_node='#c'><layer>a</layer></render></evaluate_scene></visual_scene>"
+        "</library_visual_scenes>"
     )
 
 
