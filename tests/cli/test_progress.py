@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pty
+import signal
 import subprocess
 import sys
 import time
@@ -32,8 +33,8 @@ note("the end")
 """
 
 
-def on_a_terminal(code: str, expected: int = 0) -> str:
-    """What a process writes to a terminal that is its standard error."""
+def on_a_terminal(code: str, expected: int = 0, *, until: str | None = None) -> str:
+    """What a process writes to a terminal that is its standard error; interrupted at `until`."""
     ours, theirs = pty.openpty()
     environment = {**os.environ, "TERM": "xterm", "COLUMNS": "120"}
     process = subprocess.Popen([sys.executable, "-c", code], stderr=theirs, env=environment)
@@ -47,6 +48,9 @@ def on_a_terminal(code: str, expected: int = 0) -> str:
         if not part:
             break
         text += part
+        if until is not None and until.encode() in text:
+            process.send_signal(signal.SIGINT)
+            until = None
     assert process.wait() == expected
     os.close(ours)
     return text.decode()
@@ -110,7 +114,6 @@ def test_a_long_run_shows_its_steps(tmp_path: Path) -> None:
         f"raise SystemExit(run(['simulate', {str(file)!r}, '--steps', '100000000', "
         f"'--checkpoint-dir', {str(tmp_path / 'c')!r}]))"
     )
-    kill = "threading.Timer(4, os.kill, (os.getpid(), signal.SIGINT)).start()"
-    text = on_a_terminal(f"import threading, os, signal; {kill}; {code}", expected=130)
+    text = on_a_terminal(code, expected=130, until="steps a second")
     assert "scene.dae: step" in text and "steps a second" in text
     assert any(line.startswith("Interrupted at step") for line in screen(text))

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 from colladaphy.cli.console import EXIT_FINDINGS, EXIT_IO, note, say_findings, steps
 from colladaphy.cli.outputs import Job
+from colladaphy.cli.progress import waiting
 from colladaphy.errors import ColladaError, InputError, OutputError
 from colladaphy.findings import Finding
 
@@ -21,7 +22,8 @@ def run_jobs(jobs: Sequence[Job], work: Callable[[Job], int], done: str) -> int:
     ends it all; `done` is what is done to the others.
     """
     if len(jobs) == 1:
-        return work(jobs[0])
+        with waiting(jobs[0].source):
+            return work(jobs[0])
     code = 0
     failed: list[str] = []
     for job in steps(jobs, done):

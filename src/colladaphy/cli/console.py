@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, TypeVar
 
 import click
 
-from colladaphy.cli.progress import aside
+from colladaphy.cli.progress import Bar, aside
 
 if TYPE_CHECKING:
     from colladaphy.findings import Finding, Report
@@ -86,10 +85,10 @@ def say_findings(findings: Iterable[Finding]) -> None:
 def steps(items: Iterable[_Item], label: str) -> Iterator[_Item]:
     """The items, counted on standard error while a person looks on."""
     known = list(items)
-    if len(known) < 2 or not sys.stderr.isatty():
-        yield from known
-        return
-    for number, item in enumerate(known, 1):
-        click.echo(f"\r{label} {number}/{len(known)}", err=True, nl=False)
-        yield item
-    click.echo("\r\033[K", err=True, nl=False)
+    bar = Bar(label, len(known))
+    try:
+        for number, item in enumerate(known):
+            bar(number)
+            yield item
+    finally:
+        bar.clear()

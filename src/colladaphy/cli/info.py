@@ -16,6 +16,7 @@ from colladaphy.cli.files import (
     source_of,
     units_options,
 )
+from colladaphy.cli.progress import waiting
 
 if TYPE_CHECKING:
     from colladaphy.source.limits import Limits
@@ -40,7 +41,10 @@ def command(
     """
     from colladaphy.validation.statistics import describe
 
-    facts = describe(source_of(file), convention=convention, limits=limits, si=si, up_axis=up_axis)
+    with waiting(f"Reading {file}"):
+        facts = describe(
+            source_of(file), convention=convention, limits=limits, si=si, up_axis=up_axis
+        )
     if form == "json":
         say(json.dumps(facts, indent=2))
     else:
