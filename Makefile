@@ -4,7 +4,7 @@ VENV ?= .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test check generate bench clean
+.PHONY: demo test check generate bench fuzz fuzz-atheris clean
 
 demo: $(STAMP)
 	$(BIN)/colladaphy demo
@@ -26,6 +26,14 @@ generate: $(STAMP)
 
 bench: $(STAMP)
 	$(BIN)/python -m tools.bench
+
+# Nightly: 100,000 examples of every property; FUZZ="--minutes 60 --processes 8" sets other bounds.
+fuzz: $(STAMP)
+	$(BIN)/python -m tools.fuzz $(FUZZ)
+
+# Coverage-guided, for ten minutes; ATHERIS="--minutes 60" for longer. Installs atheris for itself.
+fuzz-atheris: $(STAMP)
+	$(BIN)/python -m tools.fuzz.guided $(ATHERIS)
 
 $(STAMP): pyproject.toml
 	$(PYTHON) -c 'import sys; sys.exit("Python 3.11 or newer is needed: make PYTHON=python3.12 ..." if sys.version_info < (3, 11) else 0)'

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import colladaphy
 from colladaphy import ColladaError, World
 from colladaphy.source import pack
-from colladaphy.testing import mutants, worlds
+from colladaphy.testing import mutants, physics_documents, worlds
 from tools.fuzz.registry import note, of
 
 __all__ = ["survives"]
@@ -109,4 +109,10 @@ def anything_damaged(data: bytes) -> None:
 @of(lambda: st.builds(_archived, worlds(), _seeds()))
 def anything_archived(data: bytes) -> None:
     """Archives whose bytes are damaged."""
+    survives(data)
+
+
+@of(lambda: st.one_of(mutants(), physics_documents(), _bytes()))
+def anything_at_all(data: bytes) -> None:
+    """What else was found, by coverage or by hand."""
     survives(data)
