@@ -7,7 +7,8 @@ from tests.mapper.documents import body, collada, instance, model, scene
 
 import colladaphy
 from colladaphy.findings import Report
-from colladaphy.world import World
+from colladaphy.source import pack
+from colladaphy.world import World, compare
 
 DATA = collada(
     model(body(), id="m") + model(body(), id="k"),
@@ -64,3 +65,31 @@ def test_text_of_a_report() -> None:
         colladaphy.read(DATA.replace(b"<radius>1</radius>", b"<radius>x</radius>"))
     report = Report("a.dae", list(caught.value.findings))
     assert repr(report) == "<Report of a.dae: 2 errors>"
+
+
+def test_scenes_are_in_effect_in_the_order_of_their_instances() -> None:
+    """Not in that of the libraries, nor by the files that they stand in (COLLADA 1.5 §scene)."""
+
+    def only(name: str, gravity: int) -> str:
+        values = f"<gravity>0 0 {gravity}</gravity>"
+        return scene(instance(name), id=f"s-{name}", url=f"#m-{name}", values=values)
+
+    near = collada(
+        model(body("first"), id="m-first") + model(body("last"), id="m-last"),
+        only("last", -1) + only("first", -2),
+        effects=("far", "s-first", "s-last"),
+    ).replace(b"#far", b"other.dae#s-far")
+    far = collada(model(body("far"), id="m-far"), only("far", -3), '<node id="n"/>', effects=())
+    document = colladaphy.read(pack(near, name="main.dae", others={"other.dae": far}))
+    assert [each.id for each in document.scenes.instantiated] == ["s-far", "s-first", "s-last"]
+    world = document.load()
+    assert world.gravity.tolist() == [0, 0, -3]
+    world.positions += ((1, 0, 0), (2, 0, 0), (3, 0, 0))
+    document.update(world)
+    assert compare(world, document.load()) == []
+    chosen = ["s-last", "s-first"]
+    some = document.load(scenes=chosen)
+    assert some.positions[:, 0].tolist() == [3, 2]
+    some.positions *= 2
+    document.update(some, scenes=chosen)
+    assert compare(some, document.load(scenes=chosen)) == []

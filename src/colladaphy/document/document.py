@@ -249,8 +249,9 @@ class Document(Choosable):
         chosen = known.instantiated
         if scenes is not None:
             chosen = [known[scene] if isinstance(scene, str) else scene for scene in scenes]
-        numbers = [scene.number for scene in chosen]
-        places = [place for place, scene in enumerate(known) if scene.number in numbers]
+        order = {(scene.resource.file, scene.number): place for place, scene in enumerate(known)}
+        keys = [(scene.resource.file, scene.number) for scene in chosen]
+        places = [order[key] for key in keys if key in order]
 
         def choose(version: Resource) -> Chosen:
             found = Scenes(self, version)

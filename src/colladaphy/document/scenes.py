@@ -233,8 +233,9 @@ class Scenes:
 
     @property
     def instantiated(self) -> list[Scene]:
-        """The scenes in effect."""
-        return [scene for scene in self._scenes if scene.is_instantiated]
+        """The scenes in effect, in the order in which the document's scene instances them."""
+        found = [scene for scene in self._scenes if scene.is_instantiated]
+        return sorted(found, key=lambda scene: scene.instances[0])
 
     def __iter__(self) -> Iterator[Scene]:
         return iter(self._scenes)
