@@ -169,6 +169,8 @@ def motions(context: Context) -> Iterator[Hit]:
 
 def _matched(elements: Array, wanted: Array) -> tuple[Array, Array]:
     """Places in `wanted` whose element is one of `elements`, ascending, and its place there."""
+    if not len(elements):
+        return np.zeros(0, np.int64), np.zeros(0, np.int64)
     at = np.minimum(np.searchsorted(elements, wanted), len(elements) - 1)
     mine = np.flatnonzero(elements[at] == wanted)
     return mine, at[mine]
