@@ -41,7 +41,7 @@ def reread(document: Document) -> Document:
 def reads_back(document: Document, world: World) -> None:
     """The document is valid, and gives the World to the last bit, with no finding about it."""
     assert compare(reread(document).load(), world) == []
-    assert [f for f in document.report if f.code in ("store-inexact", "profile-stale")] == []
+    assert [f for f in document.report if f.code in ("store-inexact", "profile-old-value")] == []
 
 
 def find(document: Document, path: str) -> list[Any]:

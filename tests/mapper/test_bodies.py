@@ -231,7 +231,7 @@ def test_values_out_of_range_are_moved_into_it() -> None:
     found = document.load().bodies[0].material
     assert found is not None
     assert (found.dynamic_friction, found.restitution) == (0.0, 1.0)
-    assert [f.code for f in document.report] == ["load-material-bad"] * 2
+    assert [f.code for f in document.report] == ["physics-material-range"] * 2
 
 
 def test_an_impossible_member_skips_only_its_union() -> None:

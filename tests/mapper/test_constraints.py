@@ -180,7 +180,7 @@ def test_a_body_instanced_twice_is_an_error() -> None:
     document = colladaphy.read(data)
     with pytest.raises(colladaphy.DocumentError) as caught:
         document.load()
-    assert [finding.code for finding in caught.value.findings] == ["load-body-twice"]
+    assert [finding.code for finding in caught.value.findings] == ["link-body-twice"]
 
 
 def test_constraints_that_are_not_instanced_are_not_loaded() -> None:

@@ -53,7 +53,7 @@ def test_an_edit_of_a_sum_is_one(place: int) -> None:
     node.text = " ".join(map(repr, values))
     edited = document.load().positions[0]
     assert np.abs(edited - world.positions[0]).max() == pytest.approx(1e-7, rel=1e-3)
-    assert codes(document) == ["profile-stale"]
+    assert codes(document) == ["profile-old-value"]
 
 
 def test_an_edit_of_a_turn_is_one() -> None:
@@ -61,7 +61,7 @@ def test_an_edit_of_a_turn_is_one() -> None:
     node = document.tree.getroot().xpath("//c:node[@id='m']/c:rotate", namespaces=NS)[0]
     node.text = "3 1 2 77.0001"
     assert not np.array_equal(document.load().orientations, world.orientations)
-    assert "profile-stale" in codes(document)
+    assert "profile-old-value" in codes(document)
 
 
 def test_what_stands_in_no_other_frame_is_compared_number_by_number() -> None:
@@ -77,4 +77,4 @@ def test_what_stands_in_no_other_frame_is_compared_number_by_number() -> None:
     motion.insert(0, exact)
     edited = document.load()
     assert edited.positions[0, 1] == 0.001
-    assert codes(document) == ["profile-stale"]
+    assert codes(document) == ["profile-old-value"]

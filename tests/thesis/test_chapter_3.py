@@ -130,7 +130,7 @@ def test_3_3_constraint_on_a_body_instanced_twice_is_refused() -> None:
     )
     with pytest.raises(colladaphy.DocumentError) as caught:
         colladaphy.read(data).load()
-    assert caught.value.findings[0].code == "load-body-twice"
+    assert caught.value.findings[0].code == "link-body-twice"
 
 
 def load_listing_2() -> tuple[World, colladaphy.Document]:

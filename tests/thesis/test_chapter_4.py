@@ -43,7 +43,7 @@ def test_4_1_several_scenes_go_into_one_world() -> None:
     world = document.load()
     assert len(world.bodies) == 2
     assert world.gravity.tolist() == [0.0, 0.0, -1.0]
-    assert "load-several-gravities" in [finding.code for finding in document.report]
+    assert "physics-several-gravities" in [finding.code for finding in document.report]
 
 
 def test_4_2_meshes_are_loaded() -> None:
@@ -119,7 +119,7 @@ def test_4_2_an_edited_equation_beats_the_profile() -> None:
     """6.2.1: the profile of a plane can be older than its equation."""
     document = colladaphy.read(listing_3(equation="0 0 1 -7"))
     assert document.load().bodies[0].displacement == 7.0
-    assert "profile-stale" in [finding.code for finding in document.report]
+    assert "profile-old-value" in [finding.code for finding in document.report]
 
 
 def nested_world() -> World:

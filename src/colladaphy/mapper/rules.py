@@ -18,14 +18,6 @@ NO_SCENE = Rule(
     "thesis 5.3",
     why="The World stays empty.",
 )
-SEVERAL_GRAVITIES = Rule(
-    "load-several-gravities",
-    _WARNING,
-    "Several scenes with different gravity or time step are loaded into one World.",
-    "Load them into Worlds of their own; the first scene's values are taken.",
-    "thesis 4.1",
-    why="A World has one gravity and one time step.",
-)
 EMPTY_SHAPE = Rule(
     "load-empty-shape",
     _WARNING,
@@ -73,15 +65,6 @@ CONVERSION = Rule(
     "Correct the document's <unit>, or load in the document's own unit.",
     section="COLLADA 1.5 §unit",
     why="Every length would be zero, infinite or no number.",
-)
-BODY_TWICE = Rule(
-    "load-body-twice",
-    _ERROR,
-    "A constraint attaches to a body that is instanced more than once in the same model instance, "
-    "so which one is meant cannot be told.",
-    "Instance the physics model twice instead, or give each instance a rigid_body of its own.",
-    "thesis 3.3",
-    why="Either choice could hold the wrong body.",
 )
 CONSTRAINT_SKIPPED = Rule(
     "load-constraint-skipped",
@@ -203,14 +186,6 @@ MATERIAL_ASSUMED = Rule(
     "thesis 4.4",
     why="How it slides and bounces is what colladaphy assumes.",
 )
-MATERIAL_BAD = Rule(
-    "load-material-bad",
-    _WARNING,
-    "A value of a material is out of its range, and the nearest one in it is taken.",
-    "Restitution is in [0, 1], frictions are not negative, density is positive.",
-    "thesis 4.4",
-    why="No contact could be computed with it.",
-)
 MATERIAL_RENAMED = Rule(
     "load-material-renamed",
     _INFO,
@@ -251,14 +226,6 @@ OPEN = Rule(
     "COLLADA 1.5 §mesh",
     why="Holes are filled, so mass and contacts are those of another shape.",
 )
-STALE = Rule(
-    "profile-stale",
-    _WARNING,
-    "The common profile was edited after the pe profile was written: the edited value is taken.",
-    'Load with prefer="profile" to take the pe profile\'s value instead.',
-    "thesis 6.2.1",
-    why="One of the two values is not what the author means.",
-)
 BAD_PROFILE = Rule(
     "profile-not-understood",
     _WARNING,
@@ -267,25 +234,15 @@ BAD_PROFILE = Rule(
     "thesis 4.3",
     why="What it said exactly is now as coarse as the common profile.",
 )
-CHECKSUM = Rule(
-    "profile-checksum",
-    _WARNING,
-    "The engine's state does not fit its checksum, and is left out.",
-    "The simulation goes on from the bodies' state alone, not exactly as it would have.",
-    section="thesis 6.1",
-    why="A state that was changed would make the run go on from nowhere.",
-)
 
 RULES = (
     NO_SCENE,
-    SEVERAL_GRAVITIES,
     EMPTY_SHAPE,
     NO_GEOMETRY,
     BODY_SKIPPED,
     NO_BODY,
     BAD_VALUE,
     CONVERSION,
-    BODY_TWICE,
     CONSTRAINT_SKIPPED,
     CONSTRAINT_FAULTY,
     KINEMATICS_UNUSED,
@@ -301,13 +258,10 @@ RULES = (
     JOINT_FRAMES,
     DENSITY_ASSUMED,
     MATERIAL_ASSUMED,
-    MATERIAL_BAD,
     MATERIAL_RENAMED,
     SYSTEM_ID_TAKEN,
     ID_LARGE,
     HULL,
     OPEN,
-    STALE,
     BAD_PROFILE,
-    CHECKSUM,
 )

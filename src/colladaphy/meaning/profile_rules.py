@@ -69,7 +69,8 @@ OLD_VALUE = Rule(
     "profile-old-value",
     Severity.WARNING,
     "A value of the pe profile is not that of the common profile.",
-    "Correct the one that is wrong, or remove the value from the profile.",
+    "Correct the one that is wrong, remove the value from the profile, or load with "
+    'prefer="profile".',
     "thesis 6.2.1",
     "Programs that know the profile and those that do not see different scenes; loading takes the "
     "common value, as the newer one.",

@@ -7,7 +7,6 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.mapper import rules
 from colladaphy.mapper.loading.found import FoundBodies
 from colladaphy.mapper.loading.members import Members
 from colladaphy.mapper.loading.profile import Parts as ProfileParts
@@ -16,6 +15,7 @@ from colladaphy.mapper.loading.shapes import unit_planes
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy.mapper.loading.tensors import symmetric_parts
 from colladaphy.mapper.tessellation import extent
+from colladaphy.meaning.profile_rules import OLD_VALUE
 from colladaphy.world import World
 from colladaphy.world.kinds import Kind
 
@@ -103,7 +103,7 @@ class Deciding:
             f"The {what} of {name!r} is {stated} in the common profile, {kept} in the pe profile; "
             "the common one was edited and is taken."
         )
-        tables.resource.note(rules.STALE, ordinal, message, home=tables.pool.resources[home])
+        tables.resource.note(OLD_VALUE, ordinal, message, home=tables.pool.resources[home])
 
     # --- values
 

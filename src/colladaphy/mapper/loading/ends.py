@@ -16,6 +16,7 @@ from colladaphy.mapper.loading.bodies import LoadedBodies
 from colladaphy.mapper.loading.constraints import Constraints
 from colladaphy.mapper.loading.instances import Expansion
 from colladaphy.mapper.loading.tables import Tables
+from colladaphy.meaning.link_rules import BODY_TWICE
 
 __all__ = ["Ends"]
 
@@ -182,7 +183,5 @@ class Ends:
                 f"The body {reference!r} is instanced {len(bodies)} times in one instance of its "
                 "model, so a constraint cannot tell which one is meant."
             )
-            raise DocumentError(
-                rules.BODY_TWICE.at(element, message, file=self._tables.resource.file)
-            )
+            raise DocumentError(BODY_TWICE.at(element, message, file=self._tables.resource.file))
         return bodies[0] if bodies and self._created[bodies[0]] else -2

@@ -26,6 +26,7 @@ from colladaphy.mapper.loading.instances import Expansion
 from colladaphy.mapper.loading.sameness import Sameness, tolerance_of
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy.mapper.tokens import same_token, system_id
+from colladaphy.meaning.profile_rules import OLD_VALUE
 from colladaphy.world import JointColumns, World
 
 __all__ = ["LoadedJoints", "load_joints"]
@@ -247,5 +248,5 @@ class _Joints:
                 f"profile, {tuple(kept[row].reshape(-1).tolist())} in the pe profile; the common "
                 "one was edited and is taken."
             )
-            self._tables.resource.note(rules.STALE, element, message, home=home)
+            self._tables.resource.note(OLD_VALUE, element, message, home=home)
         return same

@@ -24,6 +24,8 @@ from colladaphy.mapper.loading.sameness import Sameness, tolerance_of
 from colladaphy.mapper.loading.shapes import MaterialRefs
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy.mapper.tokens import same_token
+from colladaphy.meaning.physics_rules import MATERIAL_RANGE
+from colladaphy.meaning.profile_rules import OLD_VALUE
 from colladaphy.world import World
 from colladaphy.world.materials import VALUES
 
@@ -240,7 +242,7 @@ class MaterialTable:
             f"common profile, {float(raw.kept[row, column])!r} in the pe profile; the common one "
             "was edited and is taken."
         )
-        self._tables.resource.note(rules.STALE, element, message, home=home)
+        self._tables.resource.note(OLD_VALUE, element, message, home=home)
 
     def _check(self, row: int, records: _Records) -> None:
         """Bring the values of a material into their ranges, with a finding each."""
@@ -257,7 +259,7 @@ class MaterialTable:
                     f"The {name} of material {records.names[row]!r} is {value!r}; "
                     f"{nearest!r} is taken."
                 )
-                self._tables.resource.note(rules.MATERIAL_BAD, element, message, home=home)
+                self._tables.resource.note(MATERIAL_RANGE, element, message, home=home)
                 records.values[row, _COLUMN[name]] = nearest
 
     # --- materials of the World

@@ -23,6 +23,8 @@ from colladaphy.mapper.loading.profile import first_of
 from colladaphy.mapper.loading.sameness import Sameness, tolerance_of
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy.mapper.tokens import same_token
+from colladaphy.meaning.physics_rules import SEVERAL_GRAVITIES
+from colladaphy.meaning.profile_rules import ENGINE_STATE, OLD_VALUE
 from colladaphy.world import EngineState, World
 from colladaphy_schema.physics_columns import PhysicsSceneTypeRows
 
@@ -71,7 +73,7 @@ class SceneValues:
         if len(state):
             data = _checked(state.value[0], state.sha256[0])
             if data is None:
-                report.note(rules.CHECKSUM, int(state.ordinals[0]), home=self.home)
+                report.note(ENGINE_STATE, int(state.ordinals[0]), home=self.home)
             else:
                 world.engine_state = EngineState(state.engine[0], state.version[0], data)
 
@@ -84,7 +86,7 @@ class SceneValues:
             if prefer == "profile" or sameness.each(row, world.gravity[None], exact)[0]:
                 world.gravity = exact[0]
             else:
-                report.note(rules.STALE, self.ordinal, "The gravity was edited.", home=self.home)
+                report.note(OLD_VALUE, self.ordinal, "The gravity was edited.", home=self.home)
         if kept.time_step.present[0]:
             step = kept.time_step.values
             stated = world.time_step
@@ -93,7 +95,7 @@ class SceneValues:
             ):
                 world.time_step = float(step[0])
             else:
-                report.note(rules.STALE, self.ordinal, "The time step was edited.", home=self.home)
+                report.note(OLD_VALUE, self.ordinal, "The time step was edited.", home=self.home)
 
     def apply_pairs(self, world: World, tables: Tables, materials: MaterialTable) -> None:
         """Set what the scene overrides for pairs of materials that are in use."""
@@ -153,7 +155,7 @@ def apply_scenes(
         first = scenes[0]
         same = scene.time_step == first.time_step
         if not (same and np.array_equal(scene.gravity, first.gravity)):
-            report.note(rules.SEVERAL_GRAVITIES, scene.ordinal, home=scene.home)
+            report.note(SEVERAL_GRAVITIES, scene.ordinal, home=scene.home)
 
 
 def _checked(text: str, checksum: str) -> bytes | None:
