@@ -7,7 +7,7 @@ import time
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from colladaphy.mapper.loading.closedness import are_closed
@@ -58,6 +58,12 @@ def test_a_polygon_is_covered_once(count: int, radii: tuple[float, ...], clockwi
     st.booleans(),
     st.booleans(),
 )
+@example(
+    [0, 8, 2, 4, 12, 15],
+    (0.2, 0.3060726681896659, 0.35, 1.055459987154324, 1.055459987154324),
+    False,
+    False,
+)  # three bridges to one corner, one of them level with it
 def test_holes_are_left_out(
     cells: list[int], radii: tuple[float, ...], clockwise: bool, hole_clockwise: bool
 ) -> None:

@@ -82,6 +82,11 @@ def _joined(ring: list[int], hole: list[int], points: list[Point]) -> list[int]:
     if best < 0:
         return ring  # a hole outside of the outline takes nothing away
     tip = points[ring[best]]
+    if not _sees(ring, best, points, (x, y)):
+        # Bridges pass their ends several times; only between two of them the hole is seen.
+        seeing = (at for at, corner in enumerate(ring)
+                  if points[corner] == tip and _sees(ring, at, points, (x, y)))  # fmt: skip
+        best = next(seeing, best)
     flattest = abs(tip[1] - y) / max(tip[0] - x, 1e-300)
     for at, corner in enumerate(ring):
         px, py = points[corner]
