@@ -36,16 +36,17 @@ _PLACED = frozenset(
      "physics-gravity-axis", "asset-inner-axis", "asset-unit-name"}
 )  # fmt: skip
 """Rules about where things stand, and how large they are."""
-_COMPARED = frozenset(
+COMPARED = frozenset(
     {"physics-inertia-size", "physics-inertia-zero", "physics-mass-zero", "physics-density-zero",
      "physics-mass-density", "physics-mass-sum", "physics-mass-frame", "physics-hollow",
      "physics-velocity-fixed", "physics-plane-moves", "physics-joint-fixed",
-     "physics-material-frictions", "geometry-accessor-range", "geometry-accessor-stride",
-     "geometry-index-range", "geometry-index-lacking", "geometry-primitive-count",
-     "geometry-vcount", "geometry-normal", "animation-skin-bind", "animation-skin-count",
-     "animation-skin-index", "animation-skin-joint", "animation-skin-sum",
-     "animation-morph-targets", "animation-key-count", "animation-output-width",
-     "profile-old-value", "profile-union"}
+     "physics-joint-target", "physics-material-frictions", "geometry-accessor-range",
+     "geometry-accessor-stride", "geometry-index-range", "geometry-index-lacking",
+     "geometry-primitive-count", "geometry-vcount", "geometry-normal", "geometry-vertex-count",
+     "animation-skin-bind", "animation-skin-count", "animation-skin-index",
+     "animation-skin-joint", "animation-skin-sum", "animation-morph-targets",
+     "animation-key-count", "animation-output-width", "kinematics-value",
+     "kinematics-transform", "profile-old-value", "profile-union"}
 )  # fmt: skip
 """Rules about one element that compare it with what stands beside it."""
 
@@ -147,7 +148,7 @@ class _Ours:
             names = text.translate(SEPARATORS).split()
             return hit.element in self._changed or not self._done.names.isdisjoint(names)
         around = [hit.element, *hit.related]
-        if hit.rule.code in _COMPARED:
+        if hit.rule.code in COMPARED:
             above = self._parents.get(hit.element, -1)
             around += [above, self._parents.get(above, -1)]
         if self._done.moved and hit.rule.code in _PLACED:
