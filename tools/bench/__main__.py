@@ -1,4 +1,4 @@
-"""`python -m tools.bench [--bodies 1000,10000,100000] [--repeat 5] [--kinds all]`."""
+"""`python -m tools.bench [--bodies 1000,10000,100000] [--repeat 5] [--kinds all] [--engines]`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,16 @@ def main(arguments: list[str] | None = None) -> int:
         "--kinds", metavar="NAME,…", help="compare kinds of content in place of sizes; 'all' of "
         "them, or some (10,000 bodies unless --bodies says otherwise)",
     )  # fmt: skip
+    parser.add_argument(
+        "--engines", action="store_true", help="measure the engines in place of load and store"
+    )
     options = parser.parse_args(arguments)
+    if options.engines:
+        from tools.bench import checkpoint, engines
+
+        engines.main([])
+        print("\ncheckpoints\n")
+        return checkpoint.main([])
     if options.kinds:
         return compare_kinds(options.kinds, (options.bodies or [10_000])[-1], options.repeat)
     options.bodies = options.bodies or [1000, 10_000, 100_000]
