@@ -76,6 +76,25 @@ def test_each_body_that_differs_is_shown(scene: Path, capsys: pytest.CaptureFixt
     assert one["relative"] == pytest.approx(0.2) and one["first"] == [0.4, 0.1, 2.0]
 
 
+def test_what_is_not_in_the_worlds_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    world = World((0, 0, -9.81))
+    world.create_sphere(1, (0, 0, 0), 1, "oak")
+    one, two = tmp_path / "a.dae", tmp_path / "b.dae"
+    colladaphy.write(world, one)
+    field = (
+        '<library_force_fields><force_field id="wind"><technique profile="x"/></force_field>'
+        "</library_force_fields><library_physics_scenes>"
+    )
+    text = one.read_text().replace("<library_physics_scenes>", field)
+    use = '<instance_force_field url="#wind"/><instance_physics_model'
+    two.write_text(text.replace("<instance_physics_model", use, 1))
+    assert diff(one, two) == 0
+    seen = capsys.readouterr()
+    assert "load-force-field" in seen.err and "b.dae" in seen.err and "Equal" in seen.out
+
+
 def test_tolerances(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
     def change(world: World) -> None:
         world.positions += 1e-6

@@ -89,6 +89,8 @@ def test_what_is_fixed_bears_it_and_what_is_light_refuses() -> None:
     world = World()
     wall = world.create_box(1, (0, 0, 0), (1, 1, 1), "oak", fixed=True)
     wall.apply_impulse((1, 0, 0), at=(0, 5, 0))
+    wall.apply_force((1, 0, 0), at=(0, 5, 0))
+    assert wall.force.tolist() == wall.torque.tolist() == [0, 0, 0]
     assert wall.linear_velocity.tolist() == wall.angular_velocity.tolist() == [0, 0, 0]
     point = world.create_body(2, (0, 0, 0), 2.0)
     point.apply_impulse((4, 0, 0))

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from colladaphy.cli.console import EXIT_FINDINGS, EXIT_IO, say, say_findings
+from colladaphy.cli.console import EXIT_FINDINGS, EXIT_IO, note, say, say_findings
 from colladaphy.cli.files import convention_option, format_option, limits_option, source_of
 from colladaphy.cli.progress import waiting
 
@@ -99,8 +99,13 @@ def command(
 
 def _load(name: str, *, si: bool, **options: Any) -> World:
     import colladaphy
+    from colladaphy.findings import Severity
 
-    world: World = colladaphy.read(source_of(name), **options).load(si=si)
+    document = colladaphy.read(source_of(name), **options)
+    world: World = document.load(si=si)
+    for finding in document.report:  # what is not in the World is not compared
+        if finding.severity in (Severity.ERROR, Severity.WARNING):
+            note(str(finding))
     return world
 
 

@@ -205,7 +205,8 @@ class Body:
         """Add a force (3,) to those of the next step, with its torque.
 
         It acts at the point `at` (3,) of the world, or at the body's centre; on the union, if the
-        body is a member. Forces add up until the step, after which they are zero.
+        body is a member. Forces add up until the step, after which they are zero. What is fixed
+        bears them.
         """
         pushing.push(self._storage, self.sid, force, at)
 

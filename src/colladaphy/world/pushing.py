@@ -28,10 +28,12 @@ def _arm(storage: Storage, sid: int, at: ArrayLike | None) -> tuple[int, Floats]
 
 
 def push(storage: Storage, sid: int, force: ArrayLike, at: ArrayLike | None) -> None:
-    """Add to force and torque of the next step."""
+    """Add to force and torque of the next step. What is fixed bears it."""
     vector = values.vector("force", force)
     row, arm = _arm(storage, sid, at)
     top = storage.top
+    if top.raw("fixed")[row]:
+        return
     top.raw("forces")[row] += vector
     top.raw("torques")[row] += np.cross(arm, vector)
 
