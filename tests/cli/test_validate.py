@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from colladaphy.cli import run
-from colladaphy.cli.counting import counting
+from colladaphy.cli.progress import counting
 from colladaphy.validation.formats import FORMATS
 
 VALID = """<?xml version="1.0" encoding="utf-8"?>
@@ -343,9 +343,10 @@ def test_progress_of_long_runs(
 ) -> None:
     import time
 
-    monkeypatch.setattr("colladaphy.cli.counting._PATIENCE", patience)
+    monkeypatch.setattr("colladaphy.cli.progress._PATIENCE", patience)
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
+    monkeypatch.setenv("TERM", "xterm")
 
     def slow() -> object:
         for number in range(3):
@@ -356,15 +357,15 @@ def test_progress_of_long_runs(
     for item in counting(slow(), 3, "checking"):  # type: ignore[arg-type]
         seen.append(item)
         text = terminal.getvalue()  # while an item is in use, nothing is in its report's way
-        assert text == "" or text.endswith("\r\033[K")
+        assert text == "" or text.endswith("\r\033[1A\033[2K")
     assert seen == [0, 1, 2]
-    assert ("\rchecking 2/3" in terminal.getvalue()) is shown
+    assert ("checking 2/3" in terminal.getvalue()) is shown
 
 
 def test_no_progress_where_nobody_looks_on(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("colladaphy.cli.counting._PATIENCE", 0.0)
+    monkeypatch.setattr("colladaphy.cli.progress._PATIENCE", 0.0)
     assert list(counting(iter("ab"), 2, "checking")) == ["a", "b"]
     assert capsys.readouterr().err == ""
 

@@ -8,14 +8,17 @@ from __future__ import annotations
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from itertools import count
+from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     from rich.progress import Progress
 
-__all__ = ["Bar", "aside", "waiting"]
+__all__ = ["Bar", "aside", "counting", "waiting"]
+
+_Item = TypeVar("_Item")
 
 _PATIENCE = 1.0
 """Seconds after which something is long."""
@@ -69,8 +72,11 @@ def _columns(total: int | None) -> Progress:
 
 
 @contextmanager
-def waiting(label: str) -> Iterator[None]:
-    """Say what is done, and for how long already, once it takes longer than a second."""
+def waiting(label: str, began: float | None = None) -> Iterator[None]:
+    """Say what is done, and for how long already, once it takes longer than a second.
+
+    It may have begun before, at a time of the monotonic clock.
+    """
     if not _is_watched():
         yield
         return
@@ -81,7 +87,8 @@ def waiting(label: str) -> Iterator[None]:
         progress.start()
         _live.append(progress)
 
-    timer = threading.Timer(_PATIENCE, show)
+    passed = 0.0 if began is None else time.monotonic() - began
+    timer = threading.Timer(max(_PATIENCE - passed, 0.0), show)
     timer.daemon = True
     timer.start()
     try:
@@ -91,6 +98,19 @@ def waiting(label: str) -> Iterator[None]:
         timer.join()
         while _live:
             _live.pop().stop()
+
+
+def counting(items: Iterable[_Item], total: int, label: str) -> Iterator[_Item]:
+    """The items, with ``label 3/21`` while the next one is awaited."""
+    began = time.monotonic()
+    walk = iter(items)
+    for number in count(1):
+        with waiting(f"{label} {min(number, total)}/{total}", began):
+            try:
+                item = next(walk)
+            except StopIteration:
+                return
+        yield item
 
 
 class Bar:

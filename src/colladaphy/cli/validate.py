@@ -10,8 +10,8 @@ import click
 
 from colladaphy.cli.choices import codes, outputs, patterns, severities, workers
 from colladaphy.cli.console import EXIT_FINDINGS, EXIT_IO, note, paint, say, say_findings
-from colladaphy.cli.counting import counting
 from colladaphy.cli.files import limits_option, refuse_same, source_of, target_of
+from colladaphy.cli.progress import counting
 from colladaphy.findings import Severity
 from colladaphy.validation.formats import FORMATS
 
