@@ -421,12 +421,28 @@ def test_bodies_of_mass_alone() -> None:
 
 def test_joints_at_nodes_of_the_world() -> None:
     joint = '<instance_rigid_constraint constraint="hinge"/>'
-    nodes = '<node id="a"><node id="b"><translate>0 0 1</translate></node></node>'
-    constraint = JOINT.replace("model/two", "#b")
+    nodes = (
+        '<node id="a"><node id="b"><translate>0 0 1</translate></node></node>'
+        '<node id="c"><translate>0 0 1</translate></node>'
+    )
+    constraint = JOINT.replace("model/two", "#c")
     instances = instance("one", "a") + instance("two", "b") + joint
     document = scene(nodes, body("one") + body("two"), instances, constraints=constraint)
     world = document.load()
     assert world.joints[0].body2 is None
+    world.positions += 1.0
+    document.update(world)
+    reads_back(document, world)
+
+
+def test_joints_at_the_nodes_of_bodies() -> None:
+    joint = '<instance_rigid_constraint constraint="hinge"/>'
+    nodes = '<node id="a"/><node id="b"><translate>0 0 1</translate></node>'
+    constraint = JOINT.replace("model/two", "#b")
+    instances = instance("one", "a") + instance("two", "b") + joint
+    document = scene(nodes, body("one") + body("two"), instances, constraints=constraint)
+    world = document.load()
+    assert world.joints[0].body2 is world.bodies[1]
     world.positions += 1.0
     document.update(world)
     reads_back(document, world)

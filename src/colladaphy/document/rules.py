@@ -42,4 +42,13 @@ ALONE = Rule(
     section="colladaphy convert",
     why="In another unit or other axes, only bodies and joints are known to be right.",
 )
-RULES = (NODE, COPIED, INEXACT, ALONE)
+RELEASED = Rule(
+    "store-kinematics-released",
+    _INFO,
+    "The scene's kinematics were taken out of effect, as they have a joint that is gone.",
+    "The other joints are rigid_constraints now; what put the kinematics into effect is kept in an "
+    "extra of the scene.",
+    section="COLLADA 1.5 §instance_kinematics_scene",
+    why="Read again, the kinematics would make the joint again.",
+)
+RULES = (NODE, COPIED, INEXACT, ALONE, RELEASED)

@@ -18,7 +18,7 @@ from colladaphy.document.updating.bodies import (
 )
 from colladaphy.document.updating.differences import Differences
 from colladaphy.document.updating.elements import child, drop, name_after, put, put_next
-from colladaphy.document.updating.joints import add_frame
+from colladaphy.document.updating.joints import add_frame, gone_for_good, release_kinematics
 from colladaphy.document.updating.nodes import Nodes, transforms_of
 from colladaphy.document.updating.owning import Owner
 from colladaphy.document.updating.plan import Demands, Plan
@@ -71,6 +71,11 @@ class Edit:
         self._make_own()
         self._write_bodies()
         self._write_joints()
+        if gone := gone_for_good(loaded, world, changes.joints_gone):
+            release_kinematics(root)
+            names = ", ".join(map(repr, gone))
+            message = f"The kinematics are not in effect any more: they have the joint {names}."
+            self.findings.append(rules.RELEASED.at(message=message))
         others = self._plan.new or self._plan.gone or self._plan.joints_new or changes.joints_gone
         if changes.scene or others or self._plan.values:
             # The counters of system ids tell what is not there, too.
