@@ -82,6 +82,7 @@ class Index:
         places of all quotes."""
         if closings is not None:
             closings.check()
+            self._closings = None
         ends = np.cumsum(self.quotes, dtype=np.int64)
         self.first_quote = (ends - self.quotes).astype(offset)
         self._by_code: dict[int, Array] = {}

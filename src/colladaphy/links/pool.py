@@ -229,11 +229,13 @@ class Table(Generic[R]):
             self._gathered[read] = gathered
         return gathered[1]
 
-    def texts(self, name: str) -> list[Any]:
-        """A column of texts of all rows."""
+    def texts(self, name: str, *, once: bool = False) -> list[Any]:
+        """A column of texts of all rows; one that is asked for `once` is not kept in memory."""
         found: list[Any] = []
         for part in self.parts:
             column = getattr(part, name)
+            if once and part.origin is not None:
+                part.known.pop(name, None)
             if len(self._parts) == 1:
                 return list(column) if not isinstance(column, list) else column
             found += column

@@ -74,7 +74,7 @@ def find_bodies(tables: Tables, expansion: Expansion) -> FoundBodies:
     instances, bodies = tables.body_instances, tables.bodies
     rows, models = instances.below(tables.model_instances.keys(expansion.rows))
     keys = tables.models.keys(expansion.models)
-    names = _chosen(instances.texts("body"), rows)
+    names = _chosen(instances.texts("body", once=True), rows)
     found = named_below(bodies, keys[models], names)
     homes, origins = instances.homes(rows), instances.ordinals[rows]
     errors: dict[int, DocumentError] = {}
@@ -85,7 +85,7 @@ def find_bodies(tables: Tables, expansion: Expansion) -> FoundBodies:
         element = home.element(int(origins[place]))
         errors[place] = DocumentError(link_rules.MISSING.at(element, message, file=home.file))
     good = np.flatnonzero(found >= 0)
-    targets = [target.strip() for target in _chosen(instances.texts("target"), rows[good])]
+    targets = [target.strip() for target in _chosen(instances.texts("target", once=True), rows[good])]
     given = np.array([bool(target) for target in targets], np.bool_)
     nodes = np.full(len(good), -1, np.int64)
     mine = np.flatnonzero(given)
