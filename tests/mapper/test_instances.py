@@ -14,6 +14,7 @@ from tests.mapper.documents import SPHERE, body, collada, instance, model, scene
 from tests.mapper.reference import Reference
 
 import colladaphy
+from colladaphy.findings import Severity
 from colladaphy.world import World, rotations
 
 _small = st.integers(-4, 4).map(float)
@@ -329,6 +330,30 @@ def test_a_file_is_one_by_whatever_way_it_is_found(tmp_path: Path) -> None:
     document = colladaphy.read(tmp_path / "main.dae")
     assert document.load().positions.tolist() == [[2.0, 3.0, 0.0], [1.0, 0.0, 1.0]]
     assert len(document.related) == 1
+
+
+def test_a_visual_scene_of_another_file_places_nodes(tmp_path: Path) -> None:
+    """Though nothing of the physics leads there; where it is missing, that is only told."""
+    main = collada(
+        model(body("a")),
+        scene(instance("a", "#lent")),
+        "",
+        library_nodes='<node id="lent"><translate>0 3 0</translate></node>',
+    ).replace(b"</scene>", b'<instance_visual_scene url="look.dae#visual"/></scene>')
+    look = collada(
+        "",
+        "",
+        '<node id="host"><translate>1 0 0</translate><instance_node url="main.dae#lent"/></node>',
+        effects=(),
+    )
+    (tmp_path / "main.dae").write_bytes(main)
+    document = colladaphy.read(tmp_path / "main.dae")
+    assert document.load().positions.tolist() == [[0.0, 3.0, 0.0]]
+    told = [finding.severity for finding in document.report if finding.code.startswith("io-")]
+    assert told == [Severity.WARNING]
+    (tmp_path / "look.dae").write_bytes(look)
+    document = colladaphy.read(tmp_path / "main.dae")
+    assert document.load().positions.tolist() == [[1.0, 3.0, 0.0]]
 
 
 def test_other_files_may_lead_back(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.errors import DocumentError
+from colladaphy.errors import ColladaError, DocumentError
 from colladaphy.findings import Severity
 from colladaphy.links import rules
 from colladaphy.links.affine import stretch_of
@@ -21,6 +21,7 @@ from colladaphy.links.pool import Pool, Table
 from colladaphy.links.poses import Poses
 from colladaphy.links.resource import Resource
 from colladaphy.links.steps import Transforms, matrix_of, own_transforms, product, rigid_parts
+from colladaphy_schema.document_columns import ColladaSceneRows
 from colladaphy_schema.scene_columns import InstanceNodeTypeRows, NodeTypeRows
 
 __all__ = ["OwnTransforms", "Placement", "Sums"]
@@ -191,6 +192,7 @@ class Placement:
         done = 0
         counts: dict[int, int] = {}
         before = len(pool.resources)
+        self._join_shown()
         while done < len(instances.parts):
             for home in range(done, len(instances.parts)):
                 part = instances.parts[home]
@@ -216,6 +218,18 @@ class Placement:
             fresh = self._find_above()
             above.resize(len(fresh), refcheck=False)
             above[...] = fresh
+
+    def _join_shown(self) -> None:
+        """Let the files join whose visual scenes are shown: they may instance nodes of others."""
+        first = self._pool.resources[0]
+        shown = first.columns.rows(ColladaSceneRows, c("scene")).instance_visual_scene
+        assert shown.ordinals is not None
+        for url, origin in zip(shown.url, shown.ordinals.tolist(), strict=True):
+            if not url.startswith("#"):
+                try:
+                    self._pool.number(first.follow(url, origin, "visual_scene")[0])
+                except ColladaError as error:
+                    self._resource.note_broken(error, Severity.WARNING)
 
     def _closure(self, rows: Array, above: Array) -> tuple[Array, dict[int, DocumentError]]:
         """The nodes and all those above them, and errors for those in a circle."""
