@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 
-from colladaphy.conform.rules import RULES
+import colladaphy.conform
 from colladaphy.findings import STAGES
+
+MODULES = [
+    import_module(f"colladaphy.conform.{path.stem}")
+    for path in sorted(Path(colladaphy.conform.__file__).parent.glob("*_rules.py"))
+]
+RULES = [rule for module in MODULES for rule in module.RULES]
 
 
 def test_rules_have_codes_of_their_own_and_say_what_to_do() -> None:

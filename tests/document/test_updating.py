@@ -442,7 +442,7 @@ def test_joints_at_the_nodes_of_bodies() -> None:
     instances = instance("one", "a") + instance("two", "b") + joint
     document = scene(nodes, body("one") + body("two"), instances, constraints=constraint)
     world = document.load()
-    assert world.joints[0].body2 is world.bodies[1]
+    assert world.joints[0].body2 == world.bodies[1]
     world.positions += 1.0
     document.update(world)
     reads_back(document, world)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import body_rules, shape_rules
 from colladaphy.conform.context import CONFORM, NS, OWN_MAP, Context, append, insert, local, remove
 from colladaphy.conform.frames import nearest_rotation, transform_of
 from colladaphy.conform.lexical import name_from
@@ -34,7 +34,7 @@ def name_bodies(context: Context) -> None:
         for element in model.iterchildren(NS + "rigid_body", NS + "rigid_constraint"):
             if sid := element.get("sid"):
                 taken.add(sid)
-            elif context.wants(rules.MISSING_SID):
+            elif context.wants(body_rules.MISSING_SID):
                 unnamed.append(element)
         for element in unnamed:
             kind = local(element)
@@ -46,7 +46,7 @@ def name_bodies(context: Context) -> None:
                 sid, number = f"{wish}-{number}", number + 1
             taken.add(sid)
             element.set("sid", sid)
-            context.note(rules.MISSING_SID, element, f"<{kind}> had no sid; is now {sid!r}")
+            context.note(body_rules.MISSING_SID, element, f"<{kind}> had no sid; is now {sid!r}")
 
 
 def wrap_bare_instances(context: Context) -> None:
@@ -62,7 +62,7 @@ def wrap_bare_instances(context: Context) -> None:
             for bare in list(scene.iterchildren(NS + "instance_" + kind)):
                 wanted = (bare.get(attribute) or "").rpartition("/")[2].lstrip("#")
                 owners = owners_of.get((kind, wanted), [])
-                if len(owners) != 1 or not context.wants(rules.BARE_INSTANCE):
+                if len(owners) != 1 or not context.wants(body_rules.BARE_INSTANCE):
                     continue
                 model = owners[0]
                 if not model.get("id"):
@@ -72,7 +72,7 @@ def wrap_bare_instances(context: Context) -> None:
                     wrappers[name] = context.make("instance_physics_model", url=f"#{name}")
                     insert(scene, scene.index(bare), wrappers[name])
                 message = f"<{local(bare)}> stood in the scene; now in an instance of #{name}"
-                context.note(rules.BARE_INSTANCE, bare, message)
+                context.note(body_rules.BARE_INSTANCE, bare, message)
                 remove(bare)
                 append(wrappers[name], bare)
 
@@ -81,12 +81,12 @@ def complete_constraints(context: Context) -> None:
     """A constraint with one attachment holds its body to the world."""
     for constraint in context.all("rigid_constraint"):
         for name, at in (("ref_attachment", 0), ("attachment", 1)):
-            if constraint.find(NS + name) is None and context.wants(rules.MISSING_ATTACHMENT):
+            if constraint.find(NS + name) is None and context.wants(body_rules.MISSING_ATTACHMENT):
                 first = [i for i, c in enumerate(constraint) if local(c) == "ref_attachment"]
                 new = context.make(name, rigid_body="")
                 insert(constraint, first[0] + 1 if at and first else 0, new)
                 message = f"<rigid_constraint> had no <{name}>: it holds its body to the world"
-                context.note(rules.MISSING_ATTACHMENT, constraint, message)
+                context.note(body_rules.MISSING_ATTACHMENT, constraint, message)
 
 
 def give_shapes(context: Context) -> None:
@@ -100,7 +100,9 @@ def give_shapes(context: Context) -> None:
     for body in context.all("rigid_body"):
         common = body.find(NS + "technique_common")
         shapes = [] if common is None else list(common.iterchildren(NS + "shape"))
-        if any(_has_geometry(shape) for shape in shapes) or not context.wants(rules.MISSING_SHAPE):
+        if any(_has_geometry(shape) for shape in shapes) or not context.wants(
+            shape_rules.MISSING_SHAPE
+        ):
             continue
         if common is None:
             common = context.make("technique_common")
@@ -126,7 +128,7 @@ def give_shapes(context: Context) -> None:
                 f"rigid_body {body.get('sid')!r} had no shape and its node shows no geometry; "
                 "an empty hull, marked as assumed, stands for it"
             )
-        context.note(rules.MISSING_SHAPE, body, message)
+        context.note(shape_rules.MISSING_SHAPE, body, message)
 
 
 def _has_geometry(shape: etree._Element) -> bool:

@@ -6,7 +6,7 @@ from functools import cache
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import form_rules
 from colladaphy.conform.context import Context, local, type_of
 from colladaphy.conform.grammar import ComplexType, SimpleType, grammar
 from colladaphy.conform.lexical import is_valid
@@ -35,7 +35,7 @@ def mend_commas(context: Context) -> None:
             continue
         new, decimal = plain_numbers(text, *_wanted(element, kind))
         new = " ".join(spelled_number(word) or word for word in new.split())
-        rule = rules.DECIMAL_COMMA if decimal else rules.LEXICAL_FORM
+        rule = form_rules.DECIMAL_COMMA if decimal else form_rules.LEXICAL_FORM
         if context.wants(rule):
             element.text = new
             before = " ".join(text.split())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import reference_rules
 from colladaphy.conform.context import NS, Context, local
 
 __all__ = ["mend_counts"]
@@ -65,7 +65,7 @@ def _set(context: Context, element: etree._Element, key: str, value: int, why: s
         return  # what is missing is added where elements are completed
     if old is not None and _whole(old) == value:
         return
-    if context.wants(rules.COUNT):
+    if context.wants(reference_rules.COUNT):
         element.set(key, str(value))
         message = f"{key} of <{local(element)}> was {old or 'missing'}, is now {value}: {why}"
-        context.note(rules.COUNT, element, message)
+        context.note(reference_rules.COUNT, element, message)

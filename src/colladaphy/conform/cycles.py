@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import reference_rules
 from colladaphy.conform.context import NS, Context, local
 
 __all__ = ["break_cycles"]
@@ -13,12 +13,12 @@ __all__ = ["break_cycles"]
 def break_cycles(context: Context) -> None:
     """Move instances that would hold what they stand in into an extra."""
     for kind in ("node", "physics_model"):
-        for instance in _closing(context, kind) if context.wants(rules.CYCLE) else ():
+        for instance in _closing(context, kind) if context.wants(reference_rules.CYCLE) else ():
             message = (
                 f"<instance_{kind} url={instance.get('url')!r}> stands in what it refers to; "
                 "moved into an extra"
             )
-            context.note(rules.CYCLE, instance, message)
+            context.note(reference_rules.CYCLE, instance, message)
             context.stash(instance)
 
 

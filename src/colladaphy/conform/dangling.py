@@ -10,7 +10,7 @@ from collections import Counter
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import reference_rules
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.targets import is_elsewhere
 
@@ -52,7 +52,7 @@ def _set_ambiguous_aside(context: Context) -> None:
     for instance in context.all("instance_physics_model"):
         users = list(instance.iterchildren(NS + "instance_rigid_constraint"))
         model = context.by_url(instance.get("url")) if users else None
-        if model is None or not context.wants(rules.AMBIGUOUS_CONSTRAINT):
+        if model is None or not context.wants(reference_rules.AMBIGUOUS_CONSTRAINT):
             continue
         bodies = Counter(u.get("body", "") for u in instance.iterchildren(_INSTANCE_OF_BODY))
         twice = {f"{model.get('id')}/{sid}" for sid, count in bodies.items() if count > 1}
@@ -65,7 +65,7 @@ def _set_ambiguous_aside(context: Context) -> None:
                     f"constraint {user.get('constraint')!r} holds {min(found)}, which is instanced "
                     "more than once here; which is meant is not said; moved into an extra"
                 )
-                context.note(rules.AMBIGUOUS_CONSTRAINT, user, message)
+                context.note(reference_rules.AMBIGUOUS_CONSTRAINT, user, message)
                 context.stash(user)
 
 
@@ -83,9 +83,9 @@ def _set_constraints_aside(context: Context, models: _Models) -> None:
 
 
 def _set_aside(context: Context, element: etree._Element, why: str) -> None:
-    if context.wants(rules.DANGLING_INSTANCE):
+    if context.wants(reference_rules.DANGLING_INSTANCE):
         message = f"<{local(element)}> cannot be followed: {why}; moved into an extra"
-        context.note(rules.DANGLING_INSTANCE, element, message)
+        context.note(reference_rules.DANGLING_INSTANCE, element, message)
         context.stash(element)
 
 

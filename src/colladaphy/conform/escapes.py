@@ -13,7 +13,7 @@ from urllib.parse import unquote
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import reference_rules
 from colladaphy.conform.context import Context, local, standard_elements_with
 
 __all__ = ["mend_escapes", "mend_suffixes"]
@@ -66,12 +66,12 @@ def mend_escapes(context: Context) -> None:
             continue
         head, *steps = plain.split("/")
         there = plain in known or (head in known | {".", ""} and all(s in sids for s in steps))
-        if there and context.wants(rules.ESCAPED):
+        if there and context.wants(reference_rules.ESCAPED):
             new = mark + plain
             _set(element, key, new)
             label = "text" if key is None else key
             message = f"{label} {value!r} of <{local(element)}> holds escapes; is now {new!r}"
-            context.note(rules.ESCAPED, element, message)
+            context.note(reference_rules.ESCAPED, element, message)
 
 
 def mend_suffixes(context: Context) -> None:
@@ -97,12 +97,12 @@ def mend_suffixes(context: Context) -> None:
             if url is None or not bare:
                 continue
             where = "" if bare in context.ids else url.partition("#")[0]
-            if (bare in context.ids or where) and context.wants(rules.SUFFIXED):
+            if (bare in context.ids or where) and context.wants(reference_rules.SUFFIXED):
                 new = f"{where}#{bare}{slash}{rest}"
                 _set(element, key, new)
                 message = (
                     f"{value!r} of <{local(element)}> has the suffix {suffix!r} of an instance; "
                     f"is now {new!r}"
                 )
-                context.note(rules.SUFFIXED, element, message)
+                context.note(reference_rules.SUFFIXED, element, message)
                 break

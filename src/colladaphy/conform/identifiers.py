@@ -6,7 +6,7 @@ import re
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import name_rules, reference_rules
 from colladaphy.conform.context import NS, Context, local, standard_elements, standard_elements_with
 from colladaphy.conform.lexical import name_from
 from colladaphy.gate.references import EXPECTED
@@ -51,7 +51,7 @@ def mend_ids(context: Context) -> None:
         old, new = user.get("source"), f"#{meant.get('id')}"
         user.set("source", new)
         message = f"the input {user.get('semantic')} named {old}, a path; is now {new}"
-        context.note(rules.INPUT_PATH, user, message)
+        context.note(reference_rules.INPUT_PATH, user, message)
 
 
 def _inputs_by_path(context: Context) -> list[tuple[etree._Element, etree._Element]]:
@@ -60,7 +60,7 @@ def _inputs_by_path(context: Context) -> list[tuple[etree._Element, etree._Eleme
     OpenRAVE gives the vertices of every mesh one id, and tells them apart by their geometry.
     """
     found: list[tuple[etree._Element, etree._Element]] = []
-    if not context.wants(rules.INPUT_PATH):
+    if not context.wants(reference_rules.INPUT_PATH):
         return found
     below: dict[str, dict[str, etree._Element]] = {}
     for user in context.all("input"):
@@ -94,12 +94,12 @@ def _mend_id(
         if position == 0 and well_formed:
             fresh.append((owner, name))
             continue
-        rule = rules.ID_DUPLICATE if position else rules.ID_FORM
+        rule = name_rules.ID_DUPLICATE if position else name_rules.ID_FORM
         if not context.wants(rule):
             continue
         if not form:
             del owner.attrib["id"]
-            context.note(rules.ID_FORM, owner, f"the empty id of <{local(owner)}> was removed")
+            context.note(name_rules.ID_FORM, owner, f"the empty id of <{local(owner)}> was removed")
             continue
         new = _free(form if well_formed else name_from(form), taken, position)
         taken[new] = [owner]
@@ -227,19 +227,19 @@ def mend_sids(context: Context) -> None:
         sid = element.get("sid", "")
         if not sid.strip():
             _empty_sid(context, element)
-        elif not _NCNAME.fullmatch(sid.strip()) and context.wants(rules.SID_FORM):
+        elif not _NCNAME.fullmatch(sid.strip()) and context.wants(name_rules.SID_FORM):
             new = name_from(sid)
             renamed[sid.strip()] = new
             element.set("sid", new)
             message = f"sid {sid!r} of <{local(element)}> is no NCName; is now {new!r}"
-            context.note(rules.SID_FORM, element, message)
+            context.note(name_rules.SID_FORM, element, message)
     if renamed:
         _rename_sids(context.root, renamed)
     _unique_sids(context)
 
 
 def _empty_sid(context: Context, element: etree._Element) -> None:
-    if not context.wants(rules.SID_EMPTY):
+    if not context.wants(name_rules.SID_EMPTY):
         return
     del element.attrib["sid"]
     kind = local(element)
@@ -248,7 +248,7 @@ def _empty_sid(context: Context, element: etree._Element) -> None:
         message = "the sid of <technique> was empty; is now 'common'"
     else:
         message = f"the empty sid of <{kind}> was removed"
-    context.note(rules.SID_EMPTY, element, message)
+    context.note(name_rules.SID_EMPTY, element, message)
 
 
 def _with_new_sids(value: str, renamed: dict[str, str]) -> str:
@@ -295,7 +295,7 @@ def _unique_sids(context: Context) -> None:
             families.setdefault(family, {}).setdefault(sid, []).append(element)
     for parent, seen in families.items():
         for sid, owners in list(seen.items()):
-            if len(owners) > 1 and context.wants(rules.SID_DUPLICATE):
+            if len(owners) > 1 and context.wants(name_rules.SID_DUPLICATE):
                 names = _separate(context, sid, owners, seen)
                 for kind in ("rigid_body", "rigid_constraint"):
                     same = [(o, n) for o, n in zip(owners, names, strict=True) if local(o) == kind]
@@ -318,7 +318,7 @@ def _separate(
         seen[names[-1]] = [owner]
         owner.set("sid", names[-1])
         message = f"sid {sid!r} of <{local(owner)}> was used before here; is now {names[-1]!r}"
-        context.note(rules.SID_DUPLICATE, owner, message)
+        context.note(name_rules.SID_DUPLICATE, owner, message)
     return names
 
 
@@ -338,4 +338,4 @@ def _distribute(
             if name != sid:
                 user.set(attribute, name)
                 message = f"{attribute}={sid!r} is the next of that sid; is now {name!r}"
-                context.note(rules.SID_DUPLICATE, user, message)
+                context.note(name_rules.SID_DUPLICATE, user, message)

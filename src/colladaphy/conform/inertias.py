@@ -8,7 +8,7 @@ from itertools import permutations
 import numpy as np
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import body_rules
 from colladaphy.conform.bullet.geometries import Geometries
 from colladaphy.conform.bullet.weights import Weights
 from colladaphy.conform.context import NS, Context, append, insert, local, remove
@@ -31,8 +31,8 @@ def drop_empty_mass_frames(context: Context) -> None:
     """A mass_frame without transforms is not allowed, and is the default one."""
     for frame in context.all("mass_frame"):
         empty = next(frame.iterchildren(tag=etree.Element), None) is None
-        if empty and not (frame.text or "").strip() and context.wants(rules.EMPTY_MASS_FRAME):
-            context.note(rules.EMPTY_MASS_FRAME, frame, "<mass_frame> was empty; removed")
+        if empty and not (frame.text or "").strip() and context.wants(body_rules.EMPTY_MASS_FRAME):
+            context.note(body_rules.EMPTY_MASS_FRAME, frame, "<mass_frame> was empty; removed")
             remove(frame)
 
 
@@ -40,7 +40,11 @@ def diagonalise_inertia(context: Context) -> None:
     """Inertia as a full tensor becomes its principal values and a turned mass_frame."""
     for inertia in context.all("inertia"):
         values = numbers_of(inertia)
-        if len(values) not in (6, 9) or not are_usable(values) or not context.wants(rules.INERTIA):
+        if (
+            len(values) not in (6, 9)
+            or not are_usable(values)
+            or not context.wants(body_rules.INERTIA)
+        ):
             continue
         tensor, order = _tensor(values)
         before = " ".join((inertia.text or "").split())
@@ -54,7 +58,7 @@ def diagonalise_inertia(context: Context) -> None:
             where = " in a turned mass_frame"
         inertia.text = " ".join(number_text(value) for value in principal)
         message = f"inertia was the tensor {before} ({order}), is now {inertia.text}{where}"
-        context.note(rules.INERTIA, inertia, message)
+        context.note(body_rules.INERTIA, inertia, message)
 
 
 def _tensor(values: list[float]) -> tuple[Matrix, str]:
@@ -114,11 +118,11 @@ def place_mass_frames(context: Context) -> None:
         if frame in centres:
             insert(frame, 0, first)
             message = f"the mass_frame of the tensor is at the shapes' centre of mass, {first.text}"
-            context.note(rules.INERTIA, frame, message)
-        elif context.wants(rules.MASS_FRAME_ORIGIN):
+            context.note(body_rules.INERTIA, frame, message)
+        elif context.wants(body_rules.MASS_FRAME_ORIGIN):
             insert(frame, 0, first)
             message = "the mass_frame only turned; it is at the origin of its body"
-            context.note(rules.MASS_FRAME_ORIGIN, frame, message)
+            context.note(body_rules.MASS_FRAME_ORIGIN, frame, message)
 
 
 def _centres(context: Context, frames: list[etree._Element]) -> list[Matrix]:

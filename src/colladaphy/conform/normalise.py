@@ -11,7 +11,7 @@ from dataclasses import replace
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import form_rules
 from colladaphy.conform.assumptions import assumed_attribute
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.grammar import (
@@ -99,14 +99,14 @@ class _Normaliser:
         holders = [element.text, *(child.tail for child in element)]
         if not any(text and text.strip() for text in holders):
             return
-        if not self.context.wants(rules.UNEXPECTED_TEXT):
+        if not self.context.wants(form_rules.UNEXPECTED_TEXT):
             return
         text = " ".join(" ".join(holders_text.split()) for holders_text in holders if holders_text)
         element.text = None
         for child in element:
             child.tail = None
         self.context.note(
-            rules.UNEXPECTED_TEXT, element, f"text {_short(text)} moved into an extra"
+            form_rules.UNEXPECTED_TEXT, element, f"text {_short(text)} moved into an extra"
         )
         self.context.keep(element, "text", value=_xml_text(text))
 
@@ -127,7 +127,7 @@ class _Normaliser:
             self.context.note(rule, element, message + _cut(text, mended, less=less))
             if less:
                 self.context.keep(element, "value", value=_xml_text(text))
-        elif mended is None and self.context.wants(rules.UNREADABLE_VALUE):
+        elif mended is None and self.context.wants(form_rules.UNREADABLE_VALUE):
             if declaration.default is None:
                 self.hopeless[element] = f"its value {_short(text)} is no {kind.name}"
                 return
@@ -136,7 +136,7 @@ class _Normaliser:
                 f"<{name}> was {_short(text)}, which is no {kind.name}; "
                 f"the default {declaration.default} is assumed"
             )
-            self.context.note(rules.UNREADABLE_VALUE, element, message)
+            self.context.note(form_rules.UNREADABLE_VALUE, element, message)
             self.context.keep(element, "value", value=_xml_text(text))
 
     @staticmethod
@@ -146,10 +146,10 @@ class _Normaliser:
             child.tail = None
 
     def _unexpected(self, child: etree._Element, parent: etree._Element) -> None:
-        if not self.context.wants(rules.UNEXPECTED_ELEMENT):
+        if not self.context.wants(form_rules.UNEXPECTED_ELEMENT):
             return
         message = f"<{local(child)}> has no place in <{local(parent)}>; moved into an extra"
-        self.context.note(rules.UNEXPECTED_ELEMENT, child, message)
+        self.context.note(form_rules.UNEXPECTED_ELEMENT, child, message)
         self.context.stash(child)
 
     # -- attributes ---------------------------------------------------------------------------
@@ -171,7 +171,7 @@ class _Normaliser:
     def _unknown_attributes(self, element: etree._Element, found: list[tuple[str, str]]) -> None:
         """Move attributes into an extra, in a time that grows with their number."""
         found = [pair for pair in found if not self._is_about_the_schema(element, pair[0])]
-        if not found or not self.context.wants(rules.UNKNOWN_ATTRIBUTE):
+        if not found or not self.context.wants(form_rules.UNKNOWN_ATTRIBUTE):
             return
         if len(found) < _MANY:
             for name, _ in found:
@@ -184,7 +184,7 @@ class _Normaliser:
         label = f"of <{local(element)}> moved into an extra"
         for name, value in found:
             message = f"attribute {_clip(name)}={_short(value)} {label}"
-            self.context.note(rules.UNKNOWN_ATTRIBUTE, element, message)
+            self.context.note(form_rules.UNKNOWN_ATTRIBUTE, element, message)
         self.context.keep_all(
             element, "attribute", [{"name": name, "value": value} for name, value in found]
         )
@@ -204,15 +204,15 @@ class _Normaliser:
             element.set(known.name, mended)
             message = f"{label} was {_short(value)}, is now {_short(mended)}"
             self.context.note(rule, element, message + _cut(value, mended, less=less))
-        elif self.context.wants(rules.UNREADABLE_VALUE):
+        elif self.context.wants(form_rules.UNREADABLE_VALUE):
             del element.attrib[known.name]
             message = f"{label} was {_short(value)}, which is no {known.type.name}; removed"
-            self.context.note(rules.UNREADABLE_VALUE, element, message)
+            self.context.note(form_rules.UNREADABLE_VALUE, element, message)
         if (less or mended is None) and value.strip():
             self.context.keep(element, "attribute", name=known.name, value=value)
 
     def _missing_attribute(self, element: etree._Element, attribute: Attribute) -> None:
-        if not self.context.wants(rules.MISSING_ATTRIBUTE):
+        if not self.context.wants(form_rules.MISSING_ATTRIBUTE):
             return
         found = assumed_attribute(self.context, element, attribute.name)
         if found is None:
@@ -221,7 +221,7 @@ class _Normaliser:
         value, why = found
         element.set(attribute.name, value)
         message = f"<{local(element)}> had no attribute {attribute.name}; {value!r} assumed: {why}"
-        self.context.note(rules.MISSING_ATTRIBUTE, element, message)
+        self.context.note(form_rules.MISSING_ATTRIBUTE, element, message)
 
     # -- content models -----------------------------------------------------------------------
 
@@ -245,7 +245,11 @@ class _Normaliser:
 
     def _hopeless(self, child: etree._Element, parent: etree._Element) -> None:
         why = self.hopeless[child]
-        rule = rules.UNREADABLE_VALUE if why.startswith("its value") else rules.INCOMPLETE_ELEMENT
+        rule = (
+            form_rules.UNREADABLE_VALUE
+            if why.startswith("its value")
+            else form_rules.INCOMPLETE_ELEMENT
+        )
         if not self.context.wants(rule):
             return
         self.context.note(rule, child, f"<{local(child)}>: {why}; moved into an extra")
@@ -269,10 +273,10 @@ class _Normaliser:
         if any(child.getparent() is not element for child in kids if child in plan.order):
             return
         for made in plan.made:
-            if self.context.wants(rules.MISSING_ELEMENT):
+            if self.context.wants(form_rules.MISSING_ELEMENT):
                 why = plan.made[made]
                 message = f"<{local(element)}> had no <{local(made)}>; added{why}"
-                self.context.note(rules.MISSING_ELEMENT, element, message)
+                self.context.note(form_rules.MISSING_ELEMENT, element, message)
             else:
                 plan.order.remove(made)
         self._reorder(element, plan.order)
@@ -283,13 +287,13 @@ class _Normaliser:
         before = list(element.iterchildren(tag=etree.Element))
         kept = [child for child in order if child.getparent() is element]
         if before != kept:
-            if not self.context.wants(rules.CHILD_ORDER):
+            if not self.context.wants(form_rules.CHILD_ORDER):
                 order = before
             else:
                 message = (
                     f"children of <{local(element)}> were {_names(before)}, are now {_names(kept)}"
                 )
-                self.context.note(rules.CHILD_ORDER, element, message)
+                self.context.note(form_rules.CHILD_ORDER, element, message)
         if before == order:
             return
         set_children(element, order)
@@ -298,12 +302,12 @@ class _Normaliser:
 def _rule_of(text: str, kind: SimpleType, *, less: bool) -> Rule:
     """What kind of change it is to mend this text."""
     if less:
-        return rules.SURPLUS_VALUES
+        return form_rules.SURPLUS_VALUES
     primitive = kind.primitive if kind.item is None else kind.item.primitive
     low, high = (1, 1) if kind.item is None else kind.length or (0, 1 << 30)
     if primitive in ("double", "float") and plain_numbers(text, low, high)[1]:
-        return rules.DECIMAL_COMMA
-    return rules.LEXICAL_FORM
+        return form_rules.DECIMAL_COMMA
+    return form_rules.LEXICAL_FORM
 
 
 def _cut(text: str, mended: str, *, less: bool) -> str:
@@ -347,9 +351,9 @@ def drop_foreign_types(context: Context) -> None:
         # An effect's own techniques have no profile, but may be kept in one that has.
         above = element.iterancestors(NS + "technique")
         technique = next((found for found in above if found.get("profile") is not None), None)
-        if technique is None or not context.wants(rules.UNKNOWN_ATTRIBUTE):
+        if technique is None or not context.wants(form_rules.UNKNOWN_ATTRIBUTE):
             continue
         value = str(element.attrib.pop(name))
         message = f"xsi:type={_short(value)} of <{local(element)}> names no type of the schema"
-        context.note(rules.UNKNOWN_ATTRIBUTE, element, message)
+        context.note(form_rules.UNKNOWN_ATTRIBUTE, element, message)
         context.keep(technique, "attribute", name=name, value=value)

@@ -10,14 +10,15 @@ from lxml import etree
 
 from colladaphy.conform import (
     bodies,
+    form_rules,
     inertias,
     references,
-    rules,
     scenes,
     shapes,
     structure,
     targets,
     upgrade,
+    version_rules,
 )
 from colladaphy.conform.commas import mend_commas
 from colladaphy.conform.context import Context
@@ -90,7 +91,11 @@ _REFERENCES: tuple[_Step, ...] = (
 # What is moved into extras can no longer be referred to.
 _MOVED = frozenset(
     rule.code
-    for rule in (rules.UNEXPECTED_ELEMENT, rules.UNREADABLE_VALUE, rules.INCOMPLETE_ELEMENT)
+    for rule in (
+        form_rules.UNEXPECTED_ELEMENT,
+        form_rules.UNREADABLE_VALUE,
+        form_rules.INCOMPLETE_ELEMENT,
+    )
 )
 # Shapes are assumed before a convention is chosen, and solids converted after: Blender's are read
 # otherwise than the standard's.
@@ -121,7 +126,7 @@ def conform(
     """
     version = detect_version(tree)
     if version is None:
-        finding = rules.NOT_COLLADA.at(tree.getroot(), file=file)
+        finding = version_rules.NOT_COLLADA.at(tree.getroot(), file=file)
         return tree, [finding]
     if (wide := _too_wide(tree)) is not None:
         return tree, [wide if file is None else replace(wide, file=file)]
@@ -144,13 +149,13 @@ def _too_wide(tree: etree._ElementTree) -> Finding | None:
     root = tree.getroot()
     if (count := len(root.nsmap)) > _WIDEST:
         message = f"The root declares {count} namespaces; the limit is {_WIDEST}."
-        return rules.TOO_WIDE.at(root, message)
+        return version_rules.TOO_WIDE.at(root, message)
     found = _WIDE(tree)
     for element in found if isinstance(found, list) else ():
         assert isinstance(element, etree._Element)
         count = len(element.attrib)
         message = f"An element has {count} attributes; the limit is {_WIDEST}."
-        return rules.TOO_WIDE.at(element, message)
+        return version_rules.TOO_WIDE.at(element, message)
     return None
 
 

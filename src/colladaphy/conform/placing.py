@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import body_rules
 from colladaphy.conform.context import Context, insert, local, remove
 from colladaphy.conform.frames import TRANSFORMS, Matrix, axis_angle, nearest_rotation, of_element
 from colladaphy.conform.solids import are_usable, numbers_of
@@ -50,7 +50,7 @@ def split_matrices(context: Context) -> None:
         if (
             len(values := numbers_of(matrix)) != 16
             or not are_usable(values)
-            or not context.wants(rules.MATRIX)
+            or not context.wants(body_rules.MATRIX)
         ):
             continue
         rigid, exact = nearest_rotation(of_element(matrix))
@@ -61,10 +61,10 @@ def split_matrices(context: Context) -> None:
             " and ".join(f"<{local(new)}>{new.text}" for new in made) or "nothing (identity)"
         )
         if exact:
-            context.note(rules.MATRIX, matrix, message)
+            context.note(body_rules.MATRIX, matrix, message)
             remove(matrix)
         else:
-            context.note(rules.MATRIX, matrix, message + "; its scale or skew is lost")
+            context.note(body_rules.MATRIX, matrix, message + "; its scale or skew is lost")
             context.stash(matrix)
 
 

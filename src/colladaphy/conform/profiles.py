@@ -11,7 +11,7 @@ from typing import Any
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import form_rules
 from colladaphy.conform.context import Context, local, remove
 from colladaphy.conform.grammar import SimpleType
 from colladaphy.conform.lexical import is_valid, mend
@@ -41,9 +41,9 @@ def mend_profiles(context: Context, *, valid: bool) -> None:
         return
     for top in tops:
         fault = _fault(top)
-        if fault is not None and context.wants(rules.FAULTY_PROFILE):
+        if fault is not None and context.wants(form_rules.FAULTY_PROFILE):
             message = f"<pe:{local(top)}> cannot be read ({fault}); it is set aside as text"
-            context.note(rules.FAULTY_PROFILE, top, message)
+            context.note(form_rules.FAULTY_PROFILE, top, message)
             parent = top.getparent()
             assert parent is not None
             holder = parent.getparent()
@@ -58,9 +58,9 @@ def _mend_numbers(context: Context, top: etree._Element) -> None:
         if len(element) or not text.strip() or is_valid(text, _NUMBERS):
             continue
         mended, _ = mend(text, _NUMBERS)
-        if mended is not None and context.wants(rules.LEXICAL_FORM):
+        if mended is not None and context.wants(form_rules.LEXICAL_FORM):
             message = f"<pe:{local(element)}> was {text.strip()!r}, is now {mended!r}"
-            context.note(rules.LEXICAL_FORM, element, message)
+            context.note(form_rules.LEXICAL_FORM, element, message)
             element.text = mended
 
 

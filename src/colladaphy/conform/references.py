@@ -7,7 +7,7 @@ from typing import cast
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import reference_rules
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.lexical import name_from
 from colladaphy.conform.structure import typed_elements
@@ -103,10 +103,10 @@ def _hash(context: Context, element: etree._Element, key: str) -> None:
     kinds = EXPECTED.get((local(element), key))
     if kinds is not None and local(context.ids[value]) not in kinds:
         return  # no reference of this kind can mean that id
-    if context.wants(rules.HASH):
+    if context.wants(reference_rules.HASH):
         element.set(key, f"#{value}")
         message = f"{key}={value!r} of <{local(element)}> is an id; is now '#{value}'"
-        context.note(rules.HASH, element, message)
+        context.note(reference_rules.HASH, element, message)
 
 
 def complete_instances(context: Context) -> None:
@@ -121,7 +121,7 @@ def complete_instances(context: Context) -> None:
             used = {user.get(key) for user in users}
             free = [member for member in members if member.get("sid") not in used]
             for user in users:
-                if user.get(key) is None and free and context.wants(rules.MISSING_BODY):
+                if user.get(key) is None and free and context.wants(reference_rules.MISSING_BODY):
                     _choose(context, user, key, free)
     _give_targets(context)
 
@@ -141,12 +141,12 @@ def _choose(context: Context, user: etree._Element, key: str, free: list[etree._
     sid = member.get("sid", "")
     user.set(key, sid)
     message = f"<{local(user)}> had no {key}; {sid!r} of its model is assumed: {why}"
-    context.note(rules.MISSING_BODY, user, message)
+    context.note(reference_rules.MISSING_BODY, user, message)
 
 
 def _give_targets(context: Context) -> None:
     for user in context.all("instance_rigid_body"):
-        if user.get("target") is not None or not context.wants(rules.MISSING_TARGET):
+        if user.get("target") is not None or not context.wants(reference_rules.MISSING_TARGET):
             continue
         names = [user.get("body", ""), user.get("name", "")]
         node = next(
@@ -163,7 +163,7 @@ def _give_targets(context: Context) -> None:
             why = "it has the body's name"
         user.set("target", f"#{node.get('id')}")
         message = f"<instance_rigid_body> had no target; #{node.get('id')} is assumed: {why}"
-        context.note(rules.MISSING_TARGET, user, message)
+        context.note(reference_rules.MISSING_TARGET, user, message)
 
 
 def mend_instances(context: Context) -> None:
@@ -172,7 +172,7 @@ def mend_instances(context: Context) -> None:
     for kind, key in (("rigid_body", "body"), ("rigid_constraint", "constraint")):
         for user in context.all("instance_" + kind):
             value = user.get(key)
-            if value is None or not context.wants(rules.BODY_REFERENCE):
+            if value is None or not context.wants(reference_rules.BODY_REFERENCE):
                 continue
             instance = user.getparent()
             model = None if instance is None else context.by_url(instance.get("url"))
@@ -183,12 +183,12 @@ def mend_instances(context: Context) -> None:
             if sid is not None and sid != value:
                 user.set(key, sid)
                 message = f"{key}={value!r} of <{local(user)}> was read as {form}; is now {sid!r}"
-                context.note(rules.BODY_REFERENCE, user, message)
+                context.note(reference_rules.BODY_REFERENCE, user, message)
             elif sid is None and not _NCNAME.fullmatch(value):
                 sid = name_from(value.rstrip("/").rpartition("/")[2])
                 user.set(key, sid)
                 message = f"{key}={value!r} of <{local(user)}> names nothing; is now {sid!r}"
-                context.note(rules.BODY_REFERENCE, user, message)
+                context.note(reference_rules.BODY_REFERENCE, user, message)
 
 
 def mend_attachments(context: Context) -> None:
@@ -213,12 +213,12 @@ def mend_attachments(context: Context) -> None:
             value = end.get("rigid_body")
             if not value or new is None or new == value:
                 continue
-            if context.wants(rules.ATTACHMENT_REFERENCE):
+            if context.wants(reference_rules.ATTACHMENT_REFERENCE):
                 end.set("rigid_body", new)
                 message = (
                     f"rigid_body={value!r} of <{local(end)}> was read as {form}; is now {new!r}"
                 )
-                context.note(rules.ATTACHMENT_REFERENCE, end, message)
+                context.note(reference_rules.ATTACHMENT_REFERENCE, end, message)
 
 
 def _address(
@@ -281,5 +281,5 @@ def _id_of(context: Context, model: etree._Element) -> str:
     if not model.get("id"):
         model.set("id", context.new_id(name_from(model.get("name") or "physics_model")))
         message = f"<physics_model> had no id for its bodies' addresses; is now {model.get('id')!r}"
-        context.note(rules.ATTACHMENT_REFERENCE, model, message)
+        context.note(reference_rules.ATTACHMENT_REFERENCE, model, message)
     return model.get("id", "")

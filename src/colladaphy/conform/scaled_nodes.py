@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import body_rules
 from colladaphy.conform.context import NS, Context, append, insert, local, remove
 from colladaphy.conform.conventions.places import Places
 from colladaphy.conform.frames import TRANSFORMS, Matrix, floats_of
@@ -235,14 +235,14 @@ def _rewrite(
         factor = tree.factors.get(node)
         if tree.fault is not None or factor is None or _is_one(factor):
             continue  # who loads the document says what it does with a scale
-        if context.wants(rules.SCALED):
+        if context.wants(body_rules.SCALED):
             factors[node] = factor
             scale_body(scaling, body, [user for _, user, _ in found], factor)
             message = (
                 f"the node of rigid_body {body.get('sid')!r} was scaled by {_words(factor)}; its "
                 "shapes, mass frame and attachments are now, and the node is rigid"
             )
-            context.note(rules.SCALED, body, message)
+            context.note(body_rules.SCALED, body, message)
     scaling.scale_attachments({body: found[0][2] for body, found in bodies.items()}, factors)
     for tree in trees:
         if tree.fault is None and any(node in factors for node in tree.factors):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import reference_rules
 from colladaphy.conform.context import NS, Context, append, insert, local
 
 __all__ = ["complete_scene", "mend_scenes"]
@@ -17,11 +17,11 @@ def mend_scenes(context: Context) -> None:
         url = instance.get("url", "")
         if not url.startswith("#") or context.by_url(url) is not None:
             continue
-        if len(found) == 1 and context.wants(rules.DANGLING_SCENE):
+        if len(found) == 1 and context.wants(reference_rules.DANGLING_SCENE):
             new = _url_of(context, found[0])
             instance.set("url", new)
             message = f"there is no physics scene {url}; the only one, {new}, is taken"
-            context.note(rules.DANGLING_SCENE, instance, message)
+            context.note(reference_rules.DANGLING_SCENE, instance, message)
 
 
 def complete_scene(context: Context) -> None:
@@ -33,7 +33,7 @@ def complete_scene(context: Context) -> None:
     """
     found = _members(context, "physics_scene")
     scenes = list(context.root.iterchildren(NS + "scene"))
-    if not found or not context.wants(rules.MISSING_SCENE) or (scenes and len(found) > 1):
+    if not found or not context.wants(reference_rules.MISSING_SCENE) or (scenes and len(found) > 1):
         return
     if any(next(scene.iter(NS + "instance_physics_scene"), None) is not None for scene in scenes):
         return
@@ -46,7 +46,7 @@ def complete_scene(context: Context) -> None:
     if scenes:
         insert(scenes[0], 0, instance)
         message = f"<scene> instanced no physics scene; {url} is assumed: {why}"
-        context.note(rules.MISSING_SCENE, scenes[0], message)
+        context.note(reference_rules.MISSING_SCENE, scenes[0], message)
         return
     scene = _add_scene(context)
     append(scene, instance)
@@ -56,7 +56,7 @@ def complete_scene(context: Context) -> None:
         visual = _url_of(context, visuals[0])
         append(scene, context.make("instance_visual_scene", url=visual))
         message += f"; with the only visual scene, {visual}"
-    context.note(rules.MISSING_SCENE, scene, message)
+    context.note(reference_rules.MISSING_SCENE, scene, message)
 
 
 def _members(context: Context, name: str) -> list[etree._Element]:

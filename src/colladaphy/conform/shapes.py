@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import shape_rules
 from colladaphy.conform.context import NS, Context, append, insert, local, remove
 from colladaphy.conform.solids import (
     SEGMENTS,
@@ -56,7 +56,7 @@ def convert_tapered(context: Context) -> None:
         ("tapered_cylinder", tapered_cylinder),
         ("tapered_capsule", tapered_capsule),
     ):
-        for solid in context.all(name) if context.wants(rules.TAPERED) else []:
+        for solid in context.all(name) if context.wants(shape_rules.TAPERED) else []:
             upper = numbers_of(solid.find(NS + "radius1"))
             lower = numbers_of(solid.find(NS + "radius2"))
             height = numbers_of(solid.find(NS + "height"))
@@ -71,7 +71,7 @@ def convert_tapered(context: Context) -> None:
             )
             rings = outline(height[0], (upper * 2)[:2], (lower * 2)[:2])
             line = solid.getparent()
-            context.note(rules.TAPERED, line, message + _replace(context, solid, rings, name))
+            context.note(shape_rules.TAPERED, line, message + _replace(context, solid, rings, name))
 
 
 def extend_capsule_radii(context: Context) -> None:
@@ -79,7 +79,11 @@ def extend_capsule_radii(context: Context) -> None:
     for capsule in context.all("capsule"):
         radius = capsule.find(NS + "radius")
         values = numbers_of(radius)
-        if radius is None or len(values) not in (1, 2) or not context.wants(rules.CAPSULE_RADIUS):
+        if (
+            radius is None
+            or len(values) not in (1, 2)
+            or not context.wants(shape_rules.CAPSULE_RADIUS)
+        ):
             continue
         words = (radius.text or "").split()
         first, last = words[0], words[-1]
@@ -88,7 +92,7 @@ def extend_capsule_radii(context: Context) -> None:
         message = f"capsule radius {before} (1.4) is {radius.text} in 1.5"
         if values[0] != values[-1]:
             message += "; the height of its caps is assumed to be the radius along x"
-        context.note(rules.CAPSULE_RADIUS, radius, message)
+        context.note(shape_rules.CAPSULE_RADIUS, radius, message)
 
 
 def mend_radii(context: Context) -> None:
@@ -101,29 +105,29 @@ def mend_radii(context: Context) -> None:
             value = element.find(NS + name)
             if len(numbers_of(value)) == 1 and local(_parent(element)) == "shape":
                 assert value is not None
-                if not context.wants(rules.SHAPE_SIZE):
+                if not context.wants(shape_rules.SHAPE_SIZE):
                     continue
                 one = (value.text or "").strip()
                 value.text = " ".join([one] * wanted)
                 message = f"<{name}> of a {solid} was {one}, is now {value.text}"
-                context.note(rules.SHAPE_SIZE, value, message)
+                context.note(shape_rules.SHAPE_SIZE, value, message)
 
 
 def _mend_sphere(context: Context, sphere: etree._Element) -> None:
     radius = sphere.find(NS + "radius")
     values = numbers_of(radius)
-    if radius is None or len(values) < 2 or not context.wants(rules.SPHERE_RADII):
+    if radius is None or len(values) < 2 or not context.wants(shape_rules.SPHERE_RADII):
         return
     before = " ".join((radius.text or "").split())
     if len(set(values)) == 1:
         radius.text = before.split()[0]
         message = f"sphere radius was {before}, is now {radius.text}"
-        context.note(rules.SPHERE_RADII, radius, message)
+        context.note(shape_rules.SPHERE_RADII, radius, message)
     elif len(values) == 3 and are_usable(values) and min(values) > 0:
         shape = _parent(sphere)
         _put_ellipsoid(context, sphere, before)
         message = f"sphere with the radii {before} is an ellipsoid: now a capsule without height"
-        context.note(rules.SPHERE_RADII, shape, message)
+        context.note(shape_rules.SPHERE_RADII, shape, message)
 
 
 def _put_ellipsoid(context: Context, old: etree._Element, radii: str) -> None:
@@ -136,7 +140,7 @@ def lift_inline_meshes(context: Context) -> None:
     """Meshes (and ellipsoids) that stand in a shape themselves become instances of geometries."""
     for shape in context.all("shape"):
         for mesh in list(shape.iterchildren(NS + "mesh", NS + "convex_mesh")):
-            if context.wants(rules.INLINE_MESH):
+            if context.wants(shape_rules.INLINE_MESH):
                 _lift(context, shape, mesh)
         for solid in list(shape.iterchildren(NS + "ellipsoid")):
             size = numbers_of(solid.find(NS + "size"))
@@ -144,11 +148,11 @@ def lift_inline_meshes(context: Context) -> None:
                 len(size) == 3
                 and are_usable(size)
                 and min(size) > 0
-                and context.wants(rules.INLINE_MESH)
+                and context.wants(shape_rules.INLINE_MESH)
             ):
                 _put_ellipsoid(context, solid, " ".join(repr(length / 2) for length in size))
                 message = "an <ellipsoid> is no shape of 1.5: now a capsule without height"
-                context.note(rules.INLINE_MESH, shape, message)
+                context.note(shape_rules.INLINE_MESH, shape, message)
 
 
 def _lift(context: Context, shape: etree._Element, mesh: etree._Element) -> None:
@@ -170,7 +174,7 @@ def _lift(context: Context, shape: etree._Element, mesh: etree._Element) -> None
         context.ids[geometry.get("id", "")] = geometry
         insert(shape, index, context.make("instance_geometry", url=f"#{geometry.get('id')}"))
         message = f"<{local(mesh)}> in <shape> is now the geometry #{geometry.get('id')}"
-    context.note(rules.INLINE_MESH, shape, message)
+    context.note(shape_rules.INLINE_MESH, shape, message)
 
 
 def split_shapes(context: Context) -> None:
@@ -178,7 +182,7 @@ def split_shapes(context: Context) -> None:
     for shape in context.all("shape"):
         solids = list(shape.iterchildren(*(NS + name for name in GEOMETRIES)))
         parent = _parent(shape)
-        if len(solids) < 2 or not context.wants(rules.SHAPE_SPLIT):
+        if len(solids) < 2 or not context.wants(shape_rules.SHAPE_SPLIT):
             continue
         if shape.find(NS + "mass") is not None:
             continue  # whose mass it is cannot be known; the generic repair keeps the first
@@ -198,7 +202,7 @@ def split_shapes(context: Context) -> None:
             twin.insert(_geometry_index(twin), solid)
             insert(parent, parent.index(shape) + position, twin)
         message = f"<shape> had {len(solids)} geometries; each has a shape of its own now"
-        context.note(rules.SHAPE_SPLIT, shape, message)
+        context.note(shape_rules.SHAPE_SPLIT, shape, message)
 
 
 def _geometry_index(shape: etree._Element) -> int:
@@ -216,8 +220,10 @@ def drop_empty_shapes(context: Context) -> None:
         if len(shape) or (shape.text or "").strip() or shape.attrib:
             continue
         full = any(len(other) for other in _parent(shape).iterchildren(NS + "shape"))
-        if full and context.wants(rules.EMPTY_SHAPE):
-            context.note(rules.EMPTY_SHAPE, shape, "an empty <shape> beside others was removed")
+        if full and context.wants(shape_rules.EMPTY_SHAPE):
+            context.note(
+                shape_rules.EMPTY_SHAPE, shape, "an empty <shape> beside others was removed"
+            )
             remove(shape)
 
 

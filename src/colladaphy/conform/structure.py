@@ -9,7 +9,7 @@ from functools import cache
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import structure_rules
 from colladaphy.conform.context import NS, Context, append, insert, local, remove, rename
 from colladaphy.conform.grammar import ComplexType, grammar, root_declaration, stated_type
 
@@ -62,8 +62,10 @@ def correct_names(context: Context) -> None:
             if present is None:
                 present = {local(other) for other in element}
             right = meant_name(name, kind, present)
-            if right is not None and context.wants(rules.MISSPELT):
-                context.note(rules.MISSPELT, child, f"<{name}> is misspelt; is now <{right}>")
+            if right is not None and context.wants(structure_rules.MISSPELT):
+                context.note(
+                    structure_rules.MISSPELT, child, f"<{name}> is misspelt; is now <{right}>"
+                )
                 rename(child, right)
 
 
@@ -106,7 +108,7 @@ def wrap_children(context: Context) -> None:
                 for child in element.iterchildren(tag=etree.Element)
                 if local(child) in inside and local(child) not in kind.children
             ]
-            if down and context.wants(rules.WRAPPED):
+            if down and context.wants(structure_rules.WRAPPED):
                 _move_down(context, element, name, down)
             _move_up(context, element, name, kind, wrapper.type)
 
@@ -120,7 +122,7 @@ def _move_down(
         insert(element, 0 if name == "contributor" else element.index(down[0]), target)
     for child in down:
         message = f"<{local(child)}> stood in <{local(element)}>; moved into its <{name}>"
-        context.note(rules.WRAPPED, child, message)
+        context.note(structure_rules.WRAPPED, child, message)
         remove(child)
         append(target, child)
 
@@ -133,9 +135,9 @@ def _move_up(
             kind = local(child)
             if kind in inner.children or kind not in outer.children or kind == name:
                 continue
-            if context.wants(rules.WRAPPED):
+            if context.wants(structure_rules.WRAPPED):
                 message = f"<{kind}> stood in <{name}>; moved out into <{local(element)}>"
-                context.note(rules.WRAPPED, child, message)
+                context.note(structure_rules.WRAPPED, child, message)
                 remove(child)
                 append(element, child)
 
@@ -157,11 +159,11 @@ def house_strays(context: Context) -> None:
     libraries, homes = grammar()["COLLADA"].children, homes_of_strays()
     for child in list(context.root.iterchildren(tag=etree.Element)):
         name = local(child)
-        if name in libraries or name not in homes or not context.wants(rules.STRAY):
+        if name in libraries or name not in homes or not context.wants(structure_rules.STRAY):
             continue
         library = context.library(homes[name].removeprefix("library_"))
         message = f"<{name}> stood outside of a library; moved into <{local(library)}>"
-        context.note(rules.STRAY, child, message)
+        context.note(structure_rules.STRAY, child, message)
         remove(child)
         append(library, child)
 
@@ -175,9 +177,9 @@ def drop_empty_libraries(context: Context) -> None:
         if next(library.iterchildren(tag=etree.Element), None) is not None:
             continue
         text = (library.text or "") + "".join(child.tail or "" for child in library)
-        if text.strip() or not context.wants(rules.EMPTY_LIBRARY):
+        if text.strip() or not context.wants(structure_rules.EMPTY_LIBRARY):
             continue
-        context.note(rules.EMPTY_LIBRARY, library, f"<{name}> was empty; removed")
+        context.note(structure_rules.EMPTY_LIBRARY, library, f"<{name}> was empty; removed")
         for name_, value in library.attrib.items():
             context.keep(context.root, "attribute", of=name, name=str(name_), value=str(value))
         for comment in list(library):
@@ -192,8 +194,10 @@ def drop_empty_bindings(context: Context) -> None:
         common = binding.find(NS + "technique_common")
         if bound or (common is not None and len(common)) or binding.attrib:
             continue
-        if context.wants(rules.EMPTY_BINDING):
-            context.note(rules.EMPTY_BINDING, binding, "<bind_material> bound nothing; removed")
+        if context.wants(structure_rules.EMPTY_BINDING):
+            context.note(
+                structure_rules.EMPTY_BINDING, binding, "<bind_material> bound nothing; removed"
+            )
             remove(binding)
 
 
@@ -205,9 +209,9 @@ def give_geometries_content(context: Context) -> None:
             local(child) in known and local(child) not in ("asset", "extra") for child in geometry
         ):
             continue
-        if not context.wants(rules.EMPTY_GEOMETRY):
+        if not context.wants(structure_rules.EMPTY_GEOMETRY):
             continue
         message = "<geometry> held no mesh; an empty <convex_mesh> was added"
-        context.note(rules.EMPTY_GEOMETRY, geometry, message)
+        context.note(structure_rules.EMPTY_GEOMETRY, geometry, message)
         first = next((i for i, c in enumerate(geometry) if local(c) == "extra"), len(geometry))
         insert(geometry, first, context.make("convex_mesh"))

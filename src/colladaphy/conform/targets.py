@@ -7,7 +7,7 @@ from urllib.parse import unquote
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import reference_rules
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.lexical import name_from
 from colladaphy.conform.references import mend_urls
@@ -31,7 +31,7 @@ def mend_inputs(context: Context) -> None:
             meant = meant if vertices is None else vertices
         if meant is None or local(meant) not in ("source", "vertices"):
             continue
-        if context.wants(rules.INPUT_ARRAY):
+        if context.wants(reference_rules.INPUT_ARRAY):
             old = user.get("source")
             if not meant.get("id"):
                 _name(context, meant, f"{array.get('id')}-{local(meant)}")
@@ -40,14 +40,14 @@ def mend_inputs(context: Context) -> None:
                 f"the input {user.get('semantic')} named the <{local(array)}> {old}; is now the "
                 f"<{local(meant)}> #{meant.get('id')}"
             )
-            context.note(rules.INPUT_ARRAY, user, message)
+            context.note(reference_rules.INPUT_ARRAY, user, message)
 
 
 def mend_parents(context: Context) -> None:
     """The parent of an instance of a physics model is a node, or there is none."""
     for instance in context.all("instance_physics_model"):
         parent = (instance.get("parent") or "").strip()
-        if not parent or is_elsewhere(parent) or not context.wants(rules.PARENT):
+        if not parent or is_elsewhere(parent) or not context.wants(reference_rules.PARENT):
             continue
         found = _find(context, parent, instance)
         if found is not None and local(found) == "node":
@@ -55,7 +55,7 @@ def mend_parents(context: Context) -> None:
         value = instance.attrib.pop("parent")
         what = "not there" if found is None else f"a <{local(found)}>, not a <node>"
         message = f"the parent {parent} is {what}; the attribute moved into an extra"
-        context.note(rules.PARENT, instance, message)
+        context.note(reference_rules.PARENT, instance, message)
         context.keep(instance, "attribute", name="parent", value=str(value))
 
 
@@ -68,7 +68,7 @@ def mend_targets(context: Context) -> None:
         found = context.by_url(target) if target.startswith("#") else None
         if found is not None and local(found) == "node" and target not in made:
             continue
-        if not target or is_elsewhere(target) or not context.wants(rules.DANGLING_TARGET):
+        if not target or is_elsewhere(target) or not context.wants(reference_rules.DANGLING_TARGET):
             continue
         if target not in made:
             found = _find(context, target, user)
@@ -80,7 +80,7 @@ def mend_targets(context: Context) -> None:
         url, why = made[target]
         user.set("target", url)
         message = f"there is no node {target}; {why}"
-        context.note(rules.DANGLING_TARGET, user, message)
+        context.note(reference_rules.DANGLING_TARGET, user, message)
     if made:
         mend_urls(context)  # what had no '#' may mean one of the new nodes
 

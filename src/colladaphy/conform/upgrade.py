@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import effect_rules
 from colladaphy.conform.context import NS, Context, append, clone, insert, local, remove
 from colladaphy.conform.lexical import name_from
 
@@ -19,12 +19,12 @@ def move_effect_images(context: Context) -> None:
         parent = image.getparent()
         if parent is None or local(parent) == "library_images":
             continue
-        if not context.wants(rules.EFFECT_IMAGE):
+        if not context.wants(effect_rules.EFFECT_IMAGE):
             continue
         if not image.get("id"):
             image.set("id", context.new_id(name_from(image.get("name") or "image")))
         message = f"<image> #{image.get('id')} in <{local(parent)}> moved into <library_images>"
-        context.note(rules.EFFECT_IMAGE, image, message)
+        context.note(effect_rules.EFFECT_IMAGE, image, message)
         library = context.library("images")
         remove(image)
         append(library, image)
@@ -35,20 +35,20 @@ def upgrade_images(context: Context) -> None:
     for image in context.all("image"):
         for init in image.iterchildren(NS + "init_from"):
             text = (init.text or "").strip()
-            if len(init) or not context.wants(rules.IMAGE):
+            if len(init) or not context.wants(effect_rules.IMAGE):
                 continue
             init.text = None
             init.append(context.make("ref", text))
-            context.note(rules.IMAGE, image, f"<init_from>{text} is now <init_from><ref>")
+            context.note(effect_rules.IMAGE, image, f"<init_from>{text} is now <init_from><ref>")
         for data in list(image.iterchildren(NS + "data")):
-            if not context.wants(rules.IMAGE):
+            if not context.wants(effect_rules.IMAGE):
                 continue
             init = context.make("init_from")
             hexes = context.make("hex", data.text, format=image.get("format") or "unknown")
             init.append(hexes)
             insert(image, image.index(data), init)
             remove(data)
-            context.note(rules.IMAGE, image, "<data> is now <init_from><hex>")
+            context.note(effect_rules.IMAGE, image, "<data> is now <init_from><hex>")
 
 
 def upgrade_samplers(context: Context) -> None:
@@ -67,14 +67,14 @@ def upgrade_samplers(context: Context) -> None:
         for holder in holders:
             for param in list(holder.iterchildren(NS + "newparam")):
                 sampler = param.find(NS + "sampler2D")
-                if sampler is not None and len(sampler) and context.wants(rules.SAMPLER):
+                if sampler is not None and len(sampler) and context.wants(effect_rules.SAMPLER):
                     _empty_sampler(context, param, sampler, surfaces)
         for sid, param in surfaces.items():
-            if context.wants(rules.SURFACE):
+            if context.wants(effect_rules.SURFACE):
                 message = (
                     f"<newparam sid={sid!r}> is a surface, which 1.5 has not; kept in an extra"
                 )
-                context.note(rules.SURFACE, param, message)
+                context.note(effect_rules.SURFACE, param, message)
                 context.stash(param, PROFILE)
 
 
@@ -97,7 +97,7 @@ def _empty_sampler(
     sid = param.get("sid")
     shown = f"image #{image.strip()}" if image else f"surface {source!r}"
     message = f"sampler {sid!r} of the {shown}: its content is kept in an extra, as 1.5 allows none"
-    context.note(rules.SAMPLER, param, message)
+    context.note(effect_rules.SAMPLER, param, message)
     sampler.text = None
     for child in list(sampler):
         sampler.remove(child)
@@ -108,12 +108,12 @@ def set_aside_profiles(context: Context) -> None:
     for effect in context.all("effect"):
         for name in ("profile_GLSL", "profile_CG", "profile_GLES"):
             for profile in list(effect.iterchildren(NS + name)):
-                if context.wants(rules.SHADER_PROFILE):
+                if context.wants(effect_rules.SHADER_PROFILE):
                     message = f"<{name}> of 1.4 is kept in an extra: 1.5 builds shaders otherwise"
-                    context.note(rules.SHADER_PROFILE, profile, message)
+                    context.note(effect_rules.SHADER_PROFILE, profile, message)
                     context.stash(profile, PROFILE)
         if not any(local(child).startswith("profile_") for child in effect):
-            if not context.wants(rules.SHADER_PROFILE):
+            if not context.wants(effect_rules.SHADER_PROFILE):
                 continue
             common, technique = context.make("profile_COMMON"), context.make("technique")
             technique.set("sid", "common")
@@ -122,4 +122,4 @@ def set_aside_profiles(context: Context) -> None:
             extras = [i for i, child in enumerate(effect) if local(child) == "extra"]
             insert(effect, extras[0] if extras else len(effect), common)
             message = "<effect> had no profile of 1.5 left; a <profile_COMMON> says nothing instead"
-            context.note(rules.SHADER_PROFILE, effect, message)
+            context.note(effect_rules.SHADER_PROFILE, effect, message)

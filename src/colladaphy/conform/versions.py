@@ -8,7 +8,7 @@ from typing import Any, cast
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import version_rules
 from colladaphy.conform.context import Context, line_of, local
 from colladaphy.conform.grammar import NAMESPACE
 from colladaphy.source.copying import copy_tree
@@ -141,16 +141,16 @@ def note_version(context: Context, original: etree._Element, version: str) -> No
         message = (
             f"the document was COLLADA {version} ({namespace or 'no namespace'}), is now 1.5.0"
         )
-        context.note(rules.VERSION, root, message)
+        context.note(version_rules.VERSION, root, message)
     elif namespace == NAMESPACE and (strays := _other_namespaces(original)):
         message = f"elements were in {', '.join(sorted(strays))}, are now in {NAMESPACE}"
-        context.note(rules.NAMESPACE_FIXED, root, message)
+        context.note(version_rules.NAMESPACE_FIXED, root, message)
     elif namespace != NAMESPACE:
         message = f"the namespace was {namespace or 'missing'}, is now {NAMESPACE}"
-        context.note(rules.NAMESPACE_FIXED, root, message)
+        context.note(version_rules.NAMESPACE_FIXED, root, message)
     if not version.startswith("1.4") and original.get("version") != "1.5.0":
         message = f"version was {original.get('version')!r}, is now '1.5.0'"
-        context.note(rules.VERSION_ATTRIBUTE, root, message)
+        context.note(version_rules.VERSION_ATTRIBUTE, root, message)
     if local(root) != "COLLADA":
         root.tag = f"{{{NAMESPACE}}}COLLADA"
     root.set("version", "1.5.0")
@@ -158,4 +158,4 @@ def note_version(context: Context, original: etree._Element, version: str) -> No
     if NAMESPACE_1_4 in (where := root.get(hint, "")):
         del root.attrib[hint]
         message = f"xsi:schemaLocation pointed to the schema of 1.4 ({where}); removed"
-        context.note(rules.SCHEMA_LOCATION, root, message)
+        context.note(version_rules.SCHEMA_LOCATION, root, message)

@@ -13,7 +13,7 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from colladaphy.conform import rules
+from colladaphy.conform import shape_rules
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.frames import Matrix
 from colladaphy.conform.solids import are_usable, numbers_of
@@ -36,7 +36,7 @@ class _Face:
 
 def mend_windings(context: Context) -> None:
     """Wind the faces of shapes' closed meshes alike, and outward where they were not."""
-    if not context.wants(rules.WINDING):
+    if not context.wants(shape_rules.WINDING):
         return
     urls = {
         instance.get("url", "")
@@ -60,7 +60,7 @@ def mend_windings(context: Context) -> None:
                 f"{len(turned)} of {len(faces)} faces of the closed mesh {url} were wound the "
                 "other way; all are wound outward now"
             )
-            context.note(rules.WINDING, geometry, message)
+            context.note(shape_rules.WINDING, geometry, message)
 
 
 def _points(context: Context, mesh: etree._Element) -> Matrix | None:

@@ -154,6 +154,14 @@ JOINT_FOLLOWS = Rule(
     "COLLADA 1.5 §formula",
     why="Grippers and parallel arms move otherwise than they should.",
 )
+PAIRS = Rule(
+    "kinematics-pairs-collide",
+    _WARNING,
+    "The file lets pairs of links pass through each other, which collide in a World.",
+    "A joint with all axes free and interpenetrate true lets two bodies pass, too.",
+    "OpenRAVE's extra of the type collision",
+    why="Links that overlap by design push each other apart.",
+)
 JOINT_DOUBLED = Rule(
     "kinematics-joint-doubled",
     _INFO,
@@ -254,6 +262,7 @@ RULES = (
     JOINT_EMPTY,
     JOINT_UNMAPPED,
     JOINT_FOLLOWS,
+    PAIRS,
     JOINT_DOUBLED,
     JOINT_FRAMES,
     DENSITY_ASSUMED,

@@ -10,7 +10,7 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from colladaphy.conform import rules as conform_rules
+from colladaphy.conform import reference_rules as conform_rules
 from colladaphy.errors import ColladaError
 from colladaphy.findings import Finding
 from colladaphy.links import rules as link_rules

@@ -193,6 +193,22 @@ def test_formulas_are_said_not_to_be_kept() -> None:
     assert (len(world.joints), codes) == (2, ["kinematics-joint-follows"])
 
 
+def test_pairs_that_are_not_to_collide_are_told() -> None:
+    pair = '<ignore_link_pair link0="km/base" link1="km/l1"/>'
+    extra = f'<extra type="collision"><technique profile="OpenRAVE">{pair * 2}</technique></extra>'
+    data = document(Arm([Segment(), Segment()]))
+    read = colladaphy.read(
+        data.replace(b"</kinematics_model>", f"{extra}</kinematics_model>".encode())
+    )
+    world = read.load()
+    assert len(world.joints) == 2
+    (finding,) = [found for found in read.report if found.code.startswith("kinematics")]
+    assert finding.code == "kinematics-pairs-collide" and finding.line
+    assert finding.message.startswith("2 pairs of links")
+    # Neighbours never collide.
+    assert all(joint.interpenetrate for joint in world.joints)
+
+
 def test_models_that_no_scene_instances_make_no_joints_and_that_is_said() -> None:
     data = document(Arm([Segment()]), scene=" ")
     read = colladaphy.read(data)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from colladaphy.conform import rules
+from colladaphy.conform import convention_rules
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions import blender, bullet, model_frames, units
 from colladaphy.conform.conventions.clues import Clues, add_note, drop_note, find_note, read_clues
@@ -146,11 +146,11 @@ def translate(context: Context, convention: str) -> None:
     clues = replace(read_clues(context), rewritten=bullet.count_rewritten(context))
     named = by_name.get(convention)
     chosen = [(named, "asked for by name")] if named else recognised(clues)
-    if not chosen or not context.wants(rules.CONVENTION):
+    if not chosen or not context.wants(convention_rules.CONVENTION):
         return
     for known, why in chosen:
         message = f"the document is read as {known.name} means it ({known.summary}): {why}"
-        context.note(rules.CONVENTION, context.root, message)
+        context.note(convention_rules.CONVENTION, context.root, message)
         known.apply(context, named is not None, clues)
     drop_note(context, "written_for")  # true of the file, not of the translated document
     digits = {"digits": str(context.digits)} if context.digits else {}

@@ -7,7 +7,7 @@ from collections import Counter
 import numpy as np
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import convention_rules
 from colladaphy.conform.bodies import body_targets
 from colladaphy.conform.context import NS, Context, insert, local
 from colladaphy.conform.conventions.clues import Clues, extents
@@ -72,14 +72,14 @@ def _read(context: Context, solid: etree._Element, reading: _Reading, evidence: 
     axis, factor = reading
     height, shape = solid.find(NS + "height"), solid.getparent()
     assert height is not None and shape is not None
-    if factor != 1.0 and context.wants(rules.HALF_HEIGHT):
+    if factor != 1.0 and context.wants(convention_rules.HALF_HEIGHT):
         before = context.write(height, [factor * numbers_of(height)[0]])
         message = f"<height> of a {local(solid)} was {before}, is now {height.text}: {evidence}"
-        context.note(rules.HALF_HEIGHT, height, message)
-    if axis == "z" and context.wants(rules.AXIS):
+        context.note(convention_rules.HALF_HEIGHT, height, message)
+    if axis == "z" and context.wants(convention_rules.AXIS):
         last = max(
             i for i, c in enumerate(shape) if c is solid or local(c) in ("translate", "rotate")
         )
         insert(shape, last + 1, context.make("rotate", _TURN))
         message = f"a {local(solid)} along z was turned by <rotate>{_TURN}: {evidence}"
-        context.note(rules.AXIS, shape, message)
+        context.note(convention_rules.AXIS, shape, message)

@@ -15,7 +15,7 @@ from collections import Counter
 import numpy as np
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import convention_rules
 from colladaphy.conform.bodies import body_targets
 from colladaphy.conform.context import NS, Context, digits_of, insert, local
 from colladaphy.conform.conventions.clues import Clues, place_of
@@ -96,7 +96,7 @@ def _angles(context: Context, limits: etree._Element) -> None:
         return
     if not any(value and math.isfinite(value) for values in ends for value in values):
         return
-    if not context.wants(rules.ANGLE_UNIT):
+    if not context.wants(convention_rules.ANGLE_UNIT):
         return
     mirrored = [[_angle_limit(0.0 - value) for value in values] for values in ends]
     before = [context.write(end, new) for end, new in ((low, mirrored[1]), (high, mirrored[0]))]
@@ -104,7 +104,7 @@ def _angles(context: Context, limits: etree._Element) -> None:
         f"angular limits {before[0]} to {before[1]} were Bullet's, in radians and mirrored; they "
         f"are now {low.text} to {high.text} degrees"
     )
-    context.note(rules.ANGLE_UNIT, limits, message)
+    context.note(convention_rules.ANGLE_UNIT, limits, message)
 
 
 def _angle_limit(value: float) -> float:
@@ -116,27 +116,32 @@ def _angle_limit(value: float) -> float:
 def _plane(context: Context, plane: etree._Element) -> None:
     equation = plane.find(NS + "equation")
     values = numbers_of(equation)
-    if equation is None or len(values) != 4 or not values[3] or not context.wants(rules.PLANE_SIGN):
+    if (
+        equation is None
+        or len(values) != 4
+        or not values[3]
+        or not context.wants(convention_rules.PLANE_SIGN)
+    ):
         return
     length = math.sqrt(sum(value * value for value in values[:3]))
     # Bullet makes the normal a unit vector, but leaves the constant as it is.
     before = context.write(equation, [*values[:3], -values[3] * (length or 1.0)])
     message = f"plane {before} means n·x = D to Bullet; its equation is now {equation.text}"
-    context.note(rules.PLANE_SIGN, equation, message)
+    context.note(convention_rules.PLANE_SIGN, equation, message)
 
 
 def _height(context: Context, solid: etree._Element) -> None:
     height = solid.find(NS + "height")
     values = numbers_of(height)
-    if height is not None and len(values) == 1 and context.wants(rules.HALF_HEIGHT):
+    if height is not None and len(values) == 1 and context.wants(convention_rules.HALF_HEIGHT):
         before = context.write(height, [2 * values[0]])
         message = f"<height> of a {local(solid)} was half of it, {before}; is now {height.text}"
-        context.note(rules.HALF_HEIGHT, height, message)
+        context.note(convention_rules.HALF_HEIGHT, height, message)
 
 
 def _attach_to_world(context: Context) -> None:
     """A joint that has one body at both ends holds it to the world, where the body is now."""
-    if not context.wants(rules.WORLD_JOINT):
+    if not context.wants(convention_rules.WORLD_JOINT):
         return
     nodes, places = None, Places(context)
     for constraint in context.all("rigid_constraint"):
@@ -153,7 +158,7 @@ def _attach_to_world(context: Context) -> None:
         second.set("rigid_body", "")
         put_place(context, second, nearest_rotation(place.shown @ frame)[0])
         message = f"both ends were {name!r}: the joint holds it to the world, where it is now"
-        context.note(rules.WORLD_JOINT, constraint, message)
+        context.note(convention_rules.WORLD_JOINT, constraint, message)
 
 
 def _nodes_by_address(context: Context) -> dict[str, etree._Element]:
@@ -180,10 +185,10 @@ def _centre(context: Context, *, whole: bool) -> None:
         )
         if placed and (whole or _in_model(body)):
             bare.append(common)
-    if not bare or not context.wants(rules.MASS_CENTRE):
+    if not bare or not context.wants(convention_rules.MASS_CENTRE):
         return
     message = f"the centre of mass of {len(bare)} bodies is their node's origin, as Bullet has it"
-    context.note(rules.MASS_CENTRE, bare[0], message)
+    context.note(convention_rules.MASS_CENTRE, bare[0], message)
     for common in bare:
         frame = context.make("mass_frame")
         frame.append(context.make("translate", "0 0 0"))

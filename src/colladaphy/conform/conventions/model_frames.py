@@ -15,7 +15,7 @@ from collections.abc import Sequence
 import numpy as np
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import convention_rules
 from colladaphy.conform.context import Context
 from colladaphy.conform.conventions.clues import Clues, is_assumed, place_of
 from colladaphy.conform.conventions.fitting import Votes, mass_evidence, shape_evidence
@@ -82,11 +82,11 @@ def _apply(
     reading = votes.decide(like)
     if forced and reading == LOCAL and votes:
         message = f"{what} were taken from the model's space as asked, but {votes}"
-        context.note(rules.FRAMES_DOUBTFUL, context.root, message)
+        context.note(convention_rules.FRAMES_DOUBTFUL, context.root, message)
         reading = 0
     elif votes.doubtful(reading):
         message = f"{what} hardly fit {READINGS[reading]}, which is taken: {votes}"
-        context.note(rules.FRAMES_DOUBTFUL, context.root, message)
+        context.note(convention_rules.FRAMES_DOUBTFUL, context.root, message)
     moves, shifted = [], 0
     for link, holder in frames:
         place = place_of(holder)
@@ -97,14 +97,14 @@ def _apply(
         where = link.readings(place)[reading] if where is None else where
         if not np.array_equal(where, place):
             moves.append((holder, where))
-    if moves and context.wants(rules.FRAMES):
+    if moves and context.wants(convention_rules.FRAMES):
         remark = f"; {shifted} of them stand where their link shows them" if shifted else ""
         source = READINGS[reading]
         message = f"{len(moves)} {what} moved from {source} to their place: {votes}{remark}"
-        context.note(rules.FRAMES, context.root, message)
+        context.note(convention_rules.FRAMES, context.root, message)
         for holder, where in moves:
             put_place(context, holder, where)
     elif votes and reading == LOCAL:
         message = f"{what} are in the bodies' own space: {votes}"
-        context.note(rules.FRAMES_LOCAL, context.root, message)
+        context.note(convention_rules.FRAMES_LOCAL, context.root, message)
     return reading if votes else None

@@ -6,7 +6,7 @@ import math
 
 from lxml import etree
 
-from colladaphy.conform import rules
+from colladaphy.conform import convention_rules
 from colladaphy.conform.context import NS, Context, local
 from colladaphy.conform.conventions.clues import Clues
 from colladaphy.conform.solids import numbers_of
@@ -36,10 +36,10 @@ def recognise_colladamaya(clues: Clues) -> str | None:
 def to_degrees(context: Context, velocity: etree._Element) -> None:
     """An angular velocity in radians a second, in degrees."""
     values = numbers_of(velocity)
-    if any(values) and context.wants(rules.ANGLE_UNIT):
+    if any(values) and context.wants(convention_rules.ANGLE_UNIT):
         before = context.write(velocity, [math.degrees(value) for value in values])
         message = f"<angular_velocity> was {before} rad/s, is now {velocity.text} degrees/s"
-        context.note(rules.ANGLE_UNIT, velocity, message)
+        context.note(convention_rules.ANGLE_UNIT, velocity, message)
 
 
 def free_limits(context: Context) -> None:
@@ -50,14 +50,14 @@ def free_limits(context: Context) -> None:
         if low is None or high is None or len(lows) != 3 or len(highs) != 3:
             continue
         free = [a > b for a, b in zip(lows, highs, strict=True)]
-        if not any(free) or not context.wants(rules.FREE_LIMITS):
+        if not any(free) or not context.wants(convention_rules.FREE_LIMITS):
             continue
         before = f"{' '.join((low.text or '').split())} to {' '.join((high.text or '').split())}"
         for end, word in ((low, "-INF"), (high, "INF")):
             words = (end.text or "").split()
             end.text = " ".join(word if f else w for f, w in zip(free, words, strict=True))
         message = f"limits {before} of <{local(limits)}> are now {low.text} to {high.text}"
-        context.note(rules.FREE_LIMITS, limits, message)
+        context.note(convention_rules.FREE_LIMITS, limits, message)
 
 
 def still_springs(context: Context) -> None:
@@ -68,12 +68,12 @@ def still_springs(context: Context) -> None:
             if numbers_of(stiffness) != [0.0] or target is None:
                 continue
             finite = [math.isfinite(value) for value in numbers_of(target)]
-            if not (finite and all(finite)) and context.wants(rules.INERT_SPRING):
+            if not (finite and all(finite)) and context.wants(convention_rules.INERT_SPRING):
                 message = (
                     f"the {local(part)} spring has no stiffness, and the target_value "
                     f"{(target.text or '').strip()}, which is none; it is set aside"
                 )
-                context.note(rules.INERT_SPRING, target, message)
+                context.note(convention_rules.INERT_SPRING, target, message)
                 context.stash(target)
 
 
@@ -85,9 +85,9 @@ def apply_nxustream(context: Context) -> None:
         target, stiffness = spring.find(NS + "target_value"), spring.find(NS + "stiffness")
         if target is None or not any(numbers_of(target)) or any(numbers_of(stiffness)):
             continue
-        if context.wants(rules.RESTITUTION):
+        if context.wants(convention_rules.RESTITUTION):
             message = f"target_value {target.text} of a spring without stiffness is a restitution"
-            context.note(rules.RESTITUTION, target, message)
+            context.note(convention_rules.RESTITUTION, target, message)
             context.stash(target)
 
 
@@ -97,20 +97,26 @@ def apply_colladamaya(context: Context) -> None:
     for gravity in context.all("gravity"):
         values = numbers_of(gravity)
         size = math.sqrt(sum(value * value for value in values))
-        if 9.7 <= size <= 10.1 and 0 < meter < 0.5 and context.wants(rules.GRAVITY_UNIT):
+        if 9.7 <= size <= 10.1 and 0 < meter < 0.5 and context.wants(convention_rules.GRAVITY_UNIT):
             before = context.write(gravity, [_tidy(value / meter) for value in values])
             message = (
                 f"gravity was {before} in a document whose unit is {meter:g} m: as large as the "
                 f"earth's in metres; is now {gravity.text}"
             )
-            context.note(rules.GRAVITY_UNIT, gravity, message)
+            context.note(convention_rules.GRAVITY_UNIT, gravity, message)
     for hollow in context.all("hollow"):
         shape = hollow.getparent()
         bare = shape is not None and shape.find(NS + "mass") is None
         bare = bare and shape is not None and shape.find(NS + "density") is None
-        if bare and (hollow.text or "").strip() in ("true", "1") and context.wants(rules.HOLLOW):
+        if (
+            bare
+            and (hollow.text or "").strip() in ("true", "1")
+            and context.wants(convention_rules.HOLLOW)
+        ):
             hollow.text = "false"
-            context.note(rules.HOLLOW, hollow, "<hollow> was true, is now false: no mass is given")
+            context.note(
+                convention_rules.HOLLOW, hollow, "<hollow> was true, is now false: no mass is given"
+            )
 
 
 def _tidy(value: float) -> float:

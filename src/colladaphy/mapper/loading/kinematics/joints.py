@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from colladaphy.errors import WorldError
 from colladaphy.findings import Rule
-from colladaphy.links.names import c
+from colladaphy.links.names import c, local_name
 from colladaphy.links.poses import DEGREE, Poses
 from colladaphy.mapper import rules
 from colladaphy.mapper.loading.bodies import LoadedBodies
@@ -42,6 +42,9 @@ from colladaphy_schema.kinematics_model_columns import KinematicsModelTypeRows
 __all__ = ["load_kinematics"]
 
 Array = NDArray[Any]
+
+_PAIR = "ignore_link_pair"
+"""OpenRAVE's element for two links that never collide, in an extra."""
 
 
 def load_kinematics(
@@ -89,7 +92,27 @@ class _Loading:
         """Create the joints of all robots."""
         for robot in self._robots:
             self._add(robot)
+        if self._robots:
+            self._note_pairs()
         return np.array(self._made, np.int64)
+
+    def _note_pairs(self) -> None:
+        """Say that links collide in a World, though OpenRAVE's extras let them pass."""
+        for home in self._tables.pool.resources:
+            index = home.columns.index
+            rows = [
+                index.rows(code)
+                for name in home.columns.names()
+                if local_name(name) == _PAIR
+                for code in home.columns.codes_of(name)
+            ]
+            if rows:
+                found = np.sort(np.concatenate(rows))
+                message = (
+                    f"{len(found)} pairs of links are to pass through each other; in a World, only "
+                    "links that a joint binds do."
+                )
+                self._tables.resource.note(rules.PAIRS, int(found[0]), message, home=home)
 
     def _add(self, robot: Robot) -> None:
         model = robot.model
