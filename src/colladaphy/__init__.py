@@ -9,7 +9,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from colladaphy.version import VERSION as __version__
+from colladaphy.version import __version__
 
 if TYPE_CHECKING:
     from colladaphy.document import Document as Document

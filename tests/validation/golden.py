@@ -14,7 +14,7 @@ from pathlib import Path
 from colladaphy.cli import run
 from colladaphy.source import pack
 from colladaphy.validation.formats import FORMATS
-from colladaphy.version import VERSION
+from colladaphy.version import __version__
 
 DOCUMENTS = Path(__file__).parent / "documents"
 GOLDEN = Path(__file__).parent / "golden"
@@ -42,7 +42,7 @@ def golden(form: str) -> str:
         code = run(["validate", ".", "none.dae", "--isolated", "--format", form,
                     "--max-findings", "3"])  # fmt: skip
     assert code == 2
-    return stream.getvalue().replace(f'"{VERSION}"', '"VERSION"')
+    return stream.getvalue().replace(f'"{__version__}"', '"VERSION"')
 
 
 if __name__ == "__main__":

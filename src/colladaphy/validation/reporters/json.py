@@ -11,7 +11,7 @@ from colladaphy.validation.checking import Checked
 from colladaphy.validation.reporters.presentation import Presentation
 from colladaphy.validation.reporters.totals import Totals
 from colladaphy.validation.settings import Settings
-from colladaphy.version import VERSION
+from colladaphy.version import __version__
 
 __all__ = ["FORMAT_VERSION", "as_json", "json_schema", "render"]
 
@@ -33,7 +33,7 @@ def as_json(reports: Iterable[Report | Checked]) -> str:
     ]
     content = {
         "version": FORMAT_VERSION,
-        "tool": {"name": "colladaphy", "version": VERSION},
+        "tool": {"name": "colladaphy", "version": __version__},
         "summary": Totals(results).as_dict(),
         "files": [_file(result) for result in results],
     }

@@ -13,7 +13,7 @@ from colladaphy.validation.checking import Checked
 from colladaphy.validation.fingerprints import fingerprints
 from colladaphy.validation.reporters.places import Place, labelled, place_of
 from colladaphy.validation.reporters.presentation import Presentation
-from colladaphy.version import VERSION
+from colladaphy.version import __version__
 
 __all__ = ["render"]
 
@@ -41,8 +41,8 @@ def render(results: Iterable[Checked], _: Presentation) -> Iterator[str]:
         "tool": {
             "driver": {
                 "name": "colladaphy",
-                "semanticVersion": VERSION,
-                "version": VERSION,
+                "semanticVersion": __version__,
+                "version": __version__,
                 "rules": [_rule(code, find_rule(code)) for code in codes],
             }
         },
