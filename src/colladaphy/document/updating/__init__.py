@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 from lxml import etree
 
 from colladaphy.document import rules
@@ -33,7 +34,8 @@ def updated(
 
     None where nothing differs. What was noticed is added to the report of the resource.
     """
-    with paused_collector():
+    # Numbers too large for arithmetic are told from what becomes of them.
+    with paused_collector(), np.errstate(all="ignore"):
         quiet = _quiet(resource)
         chosen = choose(quiet)
         loaded = trace(quiet, chosen)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
+from functools import cached_property
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,8 @@ __all__ = ["Ends"]
 
 Array = NDArray[Any]
 
+_NONE: Final[dict[str, int]] = {}
+
 
 class Ends:
     """Finds the bodies that attachments mean."""
@@ -34,31 +37,75 @@ class Ends:
         self._expansion = expansion
         self._created = created
         self._read = read
-        found = loaded.found
-        self._by_model: dict[tuple[int, int], list[int]] = {}
-        self._by_body: dict[int, list[int]] = {}
-        for body, (model, row) in enumerate(
-            zip(found.models.tolist(), found.bodies.tolist(), strict=True)
-        ):
-            self._by_model.setdefault((model, row), []).append(body)
-            self._by_body.setdefault(row, []).append(body)
-        self._by_node: dict[tuple[int, int], set[int]] = {}
-        for body, (model, node) in enumerate(
-            zip(found.models.tolist(), found.nodes.tolist(), strict=True)
-        ):
-            self._by_node.setdefault((model, node), set()).add(body)
-        bodies = tables.bodies
-        self._sids: dict[tuple[int, str], int] = {}
-        for row, (key, sid) in enumerate(
-            zip(bodies.parent_keys.tolist(), bodies.texts("sid"), strict=True)
-        ):
-            self._sids.setdefault((key, sid), row)
-        self._model_keys = tables.models.keys(expansion.models).tolist()
+        self._found = loaded.found
         self._model_ids = [tables.models.texts("id")[row] for row in expansion.models.tolist()]
-        self._children: dict[int, list[int]] = {}
-        for inner, around in enumerate(expansion.around.tolist()):
-            self._children.setdefault(around, []).append(inner)
-        self._instance_sids = tables.model_instances.texts("sid")
+
+    @cached_property
+    def _quick(self) -> dict[int, dict[str, int]]:
+        """The bodies of each model by what nearly all references are: the sid of the body, alone
+        or behind the id of the model; empty where any sid does not tell the body."""
+        found, texts = self._found, self._tables.bodies.texts("sid")
+        sids = [texts[row] for row in found.bodies.tolist()]
+        known: dict[int, dict[str, int]] = {}
+        order = np.argsort(found.models, kind="stable")
+        models, first = np.unique(found.models[order], return_index=True)
+        for model, mine in zip(models.tolist(), np.split(order, first[1:]), strict=True):
+            numbers = mine.tolist()
+            names = [sids[body] for body in numbers]
+            if len(set(names)) < len(names):
+                return {}
+            known[model] = dict(zip(names, numbers, strict=True))
+            known[model] |= {f"{self._model_ids[model]}/{name}": body
+                             for name, body in zip(names, numbers, strict=True)}  # fmt: skip
+        return known if bool(self._created.all()) else {}
+
+    @cached_property
+    def _by_model(self) -> dict[tuple[int, int], list[int]]:
+        known: dict[tuple[int, int], list[int]] = {}
+        pairs = zip(self._found.models.tolist(), self._found.bodies.tolist(), strict=True)
+        for body, pair in enumerate(pairs):
+            known.setdefault(pair, []).append(body)
+        return known
+
+    @cached_property
+    def _by_body(self) -> dict[int, list[int]]:
+        known: dict[int, list[int]] = {}
+        for body, row in enumerate(self._found.bodies.tolist()):
+            known.setdefault(row, []).append(body)
+        return known
+
+    @cached_property
+    def _by_node(self) -> dict[tuple[int, int], set[int]]:
+        known: dict[tuple[int, int], set[int]] = {}
+        pairs = zip(self._found.models.tolist(), self._found.nodes.tolist(), strict=True)
+        for body, pair in enumerate(pairs):
+            known.setdefault(pair, set()).add(body)
+        return known
+
+    @cached_property
+    def _sids(self) -> dict[tuple[int, str], int]:
+        bodies = self._tables.bodies
+        known: dict[tuple[int, str], int] = {}
+        pairs = zip(bodies.parent_keys.tolist(), bodies.texts("sid"), strict=True)
+        for row, pair in enumerate(pairs):
+            known.setdefault(pair, row)
+        return known
+
+    @cached_property
+    def _model_keys(self) -> list[int]:
+        keys: list[int] = self._tables.models.keys(self._expansion.models).tolist()
+        return keys
+
+    @cached_property
+    def _children(self) -> dict[int, list[int]]:
+        known: dict[int, list[int]] = {}
+        for inner, around in enumerate(self._expansion.around.tolist()):
+            known.setdefault(around, []).append(inner)
+        return known
+
+    @cached_property
+    def _instance_sids(self) -> list[str | None]:
+        return self._tables.model_instances.texts("sid")
 
     def attached(self, constraints: Array, models: Array) -> tuple[Array, Array, Poses]:
         """The numbers of those whose ends are all there, and their bodies (n, 2), -1 for the world.
@@ -71,6 +118,15 @@ class Ends:
         references = self._read.references
         pairs = zip(constraints.tolist(), models.tolist(), strict=True)
         for number, (row, model) in enumerate(pairs):
+            named = self._quick.get(model, _NONE)
+            first, second = references[2 * row : 2 * row + 2]
+            one = named.get(first) if first else -1
+            other = named.get(second) if second else -1
+            if one is not None and other is not None:
+                kept.append(number)
+                bodies.append((one, other))
+                nodes.append((-1, -1))
+                continue
             ends: list[int] = []
             stands: list[int] = []
             try:
@@ -125,12 +181,6 @@ class Ends:
 
     def _end(self, row: int, side: int, model: int, reference: str) -> tuple[int, int]:
         """The body that an attachment means, -2 if it was not loaded; or -1 and a node."""
-        # As nearly all are written: the model, or nothing, and the sid of the body.
-        outer, slash, sid = reference.rpartition("/")
-        if outer == self._model_ids[model] or not slash:
-            quick = self._sids.get((self._model_keys[model], sid))
-            if quick is not None:
-                return self._only(self._by_model.get((model, quick), ()), row, side), -1
         file, head, sids = split_reference(reference)
         if not file:
             path = sids if head in (".", self._model_ids[model]) else [head, *sids]
