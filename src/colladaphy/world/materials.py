@@ -227,6 +227,8 @@ class Materials:
 
         Those that were changed stay as they are.
         """
+        if meter == self._meter:
+            return
         for id, (_, density, _, _) in enumerate(_DEFAULTS):
             before, after = density * _cubed(self._meter), density * _cubed(meter)
             if self._table.raw("density")[self._table.find(id)] == before:
