@@ -11,6 +11,7 @@ from hypothesis import settings
 from lxml import etree
 
 import colladaphy
+from colladaphy import ColladaError
 from colladaphy.testing import CHECKS, check_importer
 from colladaphy.world import World
 
@@ -29,7 +30,7 @@ def written(world: World) -> bytes:
 
 
 def test_ours_passes() -> None:
-    report = check_importer(ours, written, examples=EXAMPLES)
+    report = check_importer(ours, written, refuses=ColladaError, examples=EXAMPLES)
     assert report.passed
     assert tuple(report.counts) == CHECKS
     assert all(count >= EXAMPLES for count in report.counts.values()), report.counts
@@ -145,3 +146,17 @@ def test_wrong_arguments_are_refused() -> None:
         check_importer(ours, checks=["speed"])
     with pytest.raises(ValueError, match="the check 'stored' needs `store`"):
         check_importer(ours, checks=["stored"])
+    with pytest.raises(ValueError, match="the check 'refused' needs `refuses`"):
+        check_importer(ours, checks=["refused"])
+
+
+def test_other_errors_than_its_own_are_found() -> None:
+    def load(data: bytes) -> World:
+        etree.fromstring(data)
+        return ours(data)
+
+    report = check_importer(
+        load, checks=["refused"], refuses=ColladaError, examples=100, raises=False
+    )
+    (failure,) = report.failures
+    assert failure.message.startswith("XMLSyntaxError: ") and failure.document is not None

@@ -21,4 +21,4 @@ def counted(values: NDArray[Any]) -> NDArray[np.int64]:
     """
     if values.dtype == object:
         values = np.array([min(max(int(value), -_MOST), _MOST) for value in values.flat], np.int64)
-    return np.clip(values, -_MOST, _MOST).astype(np.int64, copy=False)
+    return np.asarray(np.clip(values, -_MOST, _MOST), np.int64)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-__all__ = ["COLLADA", "PE", "XML_BASE", "c", "local_name", "p"]
+__all__ = ["COLLADA", "MOST_INSTANCES", "PE", "XML_BASE", "c", "local_name", "p"]
 
 COLLADA = "http://www.collada.org/2008/03/COLLADASchema"
 PE = "urn:colladaphy:pe:1"
+MOST_INSTANCES = 1_000_000
+"""Instances of physics models, those within models included, that a scene may expand to."""
 XML_BASE = "{http://www.w3.org/XML/1998/namespace}base"
 
 

@@ -8,7 +8,8 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 
 from colladaphy.findings import Severity
-from colladaphy.links.rules import CYCLE
+from colladaphy.links.names import MOST_INSTANCES
+from colladaphy.links.rules import BUDGET, CYCLE
 from colladaphy.meaning import link_rules
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
@@ -101,6 +102,42 @@ def _closing(below: dict[int, list[tuple[int, int]]]) -> Iterable[tuple[int, int
     return found
 
 
+def expansions(context: Context) -> Iterator[Hit]:
+    """Models in models that make more instances than a file of that size should."""
+    references = context.references("url", "instance_physics_model")
+    if not references:
+        return
+    elements = np.array([reference.element for reference in references])
+    around = context.ancestor(elements, "physics_model").tolist()
+    targets = context.targets(reference.text for reference in references).tolist()
+    within: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+    for element, outer, target in zip(elements.tolist(), around, targets, strict=True):
+        within[outer].append((target, element))
+    if next(iter(_closing(within)), None) is not None:
+        return  # told as a circle
+    sizes = _sizes(within)
+    whole = sum(1 + sizes.get(target, 0) for target, _ in within[-1])
+    if whole > MOST_INSTANCES:
+        _, element = max(within[-1], key=lambda edge: sizes.get(edge[0], 0))
+        yield Hit(BUDGET, element, f"The scenes expand to {whole:,} instances of models.")
+
+
+def _sizes(within: dict[int, list[tuple[int, int]]]) -> dict[int, int]:
+    """How many instances there are in a model, those in the models in it included."""
+    sizes: dict[int, int] = {}
+    stack = list(within)
+    while stack:
+        model = stack[-1]
+        inner = [target for target, _ in within.get(model, ()) if target in within]
+        waiting = [target for target in inner if target not in sizes]
+        if waiting:
+            stack += waiting
+            continue
+        sizes[model] = sum(1 + sizes.get(target, 0) for target, _ in within[model])
+        stack.pop()
+    return sizes
+
+
 def duplicate_sids(context: Context) -> Iterator[Hit]:
     """Siblings of one scoped id."""
     elements, texts = context.columns.with_attribute("sid")
@@ -124,4 +161,4 @@ def duplicate_sids(context: Context) -> Iterator[Hit]:
         )
 
 
-CHECKS = (circles, duplicate_sids)
+CHECKS = (circles, duplicate_sids, expansions)

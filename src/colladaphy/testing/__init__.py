@@ -31,6 +31,7 @@ except ImportError as error:  # say what to install, not only what is missing
         "colladaphy.testing needs hypothesis: pip install 'colladaphy[testing]'"
     ) from error
 
+from colladaphy.testing.broken import BROKEN_RULES, BrokenDocument, broken_documents
 from colladaphy.testing.changes import EDITS, REWRITES, edits, equivalents
 from colladaphy.testing.coverage import Component, Coverage
 from colladaphy.testing.covering import covering_documents
@@ -41,6 +42,7 @@ from colladaphy.testing.foreign_documents import (
     ForeignDocument,
     foreign_documents,
 )
+from colladaphy.testing.hostile import HOSTILE_KINDS, hostile_inputs
 from colladaphy.testing.importers import CHECKS, check_importer
 from colladaphy.testing.kit.report import ImporterReport
 from colladaphy.testing.making.crowds import crowd
@@ -52,18 +54,22 @@ del _hypothesis
 
 __all__ = [
     "AREAS",
+    "BROKEN_RULES",
     "CHECKS",
     "EDITS",
     "FOREIGN_PRODUCERS",
+    "HOSTILE_KINDS",
     "JOINTS",
     "MUTATIONS",
     "REWRITES",
     "SHAPES",
+    "BrokenDocument",
     "Component",
     "Coverage",
     "ForeignDocument",
     "ImporterReport",
     "LinkedFiles",
+    "broken_documents",
     "check_importer",
     "covering_documents",
     "crowd",
@@ -71,6 +77,7 @@ __all__ = [
     "edits",
     "equivalents",
     "foreign_documents",
+    "hostile_inputs",
     "linked_files",
     "mutants",
     "physics_documents",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import random
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from typing import Any, TypeVar
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
@@ -12,7 +13,9 @@ from hypothesis import strategies as st
 
 import colladaphy.world
 from colladaphy.document import read, write
+from colladaphy.testing.broken import broken_documents
 from colladaphy.testing.changes import REWRITES, edits, equivalents
+from colladaphy.testing.hostile import hostile_inputs
 from colladaphy.testing.kit.report import Check, Failure, ImporterReport, MismatchError
 from colladaphy.testing.physics import physics_documents
 from colladaphy.testing.worlds import worlds
@@ -24,7 +27,8 @@ __all__ = ["CHECKS", "check_importer"]
 T = TypeVar("T")
 Compare = Callable[[World, T], Iterable[object]]
 
-CHECKS: tuple[str, ...] = ("meaning", "again", "alike", "edited", "worlds", "stored")
+CHECKS: tuple[str, ...] = ("meaning", "again", "alike", "edited", "worlds", "stored",
+                           "refused")  # fmt: skip
 """The names of the checks, in the order in which they run."""
 
 
@@ -35,6 +39,7 @@ def check_importer(
     compare: Compare[T] | None = None,
     documents: st.SearchStrategy[bytes] | None = None,
     checks: Iterable[str] | None = None,
+    refuses: type[Exception] | tuple[type[Exception], ...] | None = None,
     rtol: float = 0.0,
     atol: float = 0.0,
     examples: int | None = None,
@@ -54,7 +59,9 @@ def check_importer(
     - alike: what does not matter (order, spelling, comments, encoding) changes nothing;
     - edited: so for what editors made of a document, with a stale profile perhaps;
     - worlds: so for any World that we wrote;
-    - stored: what `store` writes is valid, and we read the same World from it.
+    - stored: what `store` writes is valid, and we read the same World from it;
+    - refused: of documents with a fault, and of inputs that attack it, it makes something or
+      raises one of `refuses`, its own errors; it runs where these are named.
 
     `documents` are drawn in place of `physics_documents()`, for importers of less than all of it.
     `examples` is how many a check takes (None: as hypothesis's profile says).
@@ -63,13 +70,16 @@ def check_importer(
     fails, unless `raises` is false; ValueError for an unknown check.
     """
     judge: Compare[T] = compare or _worlds_differ(rtol, atol)
-    battery = _battery(load, store, judge, documents or physics_documents())
+    drawn = physics_documents() if documents is None else documents
+    battery = _battery(load, store, judge, drawn)
+    if refuses is not None:
+        battery["refused"] = _refusing(load, refuses)
     wanted = tuple(battery) if checks is None else tuple(checks)
     for name in wanted:
         if name not in CHECKS:
             raise ValueError(f"no check {name!r}; there are {', '.join(CHECKS)}")
         if name not in battery:
-            raise ValueError(f"the check {name!r} needs `store`")
+            raise ValueError(f"the check {name!r} needs `{_NEEDED[name]}`")
     report = ImporterReport()
     for name in CHECKS:
         if name in wanted:
@@ -77,6 +87,22 @@ def check_importer(
     if raises and not report.passed:
         raise AssertionError(f"\n{report}")
     return report
+
+
+_NEEDED = {"stored": "store", "refused": "refuses"}
+
+
+def _refusing(
+    load: Callable[[bytes], object], refuses: type[Exception] | tuple[type[Exception], ...]
+) -> Check:
+    def refused(data: bytes, seen: list[bytes]) -> None:
+        seen[:] = [data]
+        with suppress(refuses):
+            load(data)
+
+    broken = broken_documents(errors=True).map(lambda document: document.data)
+    about = "what is broken or hostile is refused with an error of its own"
+    return Check("refused", about, broken | hostile_inputs(), refused)
 
 
 def _worlds_differ(rtol: float, atol: float) -> Callable[[World, Any], Sequence[str]]:

@@ -11,7 +11,13 @@ from hypothesis import strategies as st
 import colladaphy
 from colladaphy import ColladaError, World
 from colladaphy.source import pack
-from colladaphy.testing import mutants, physics_documents, worlds
+from colladaphy.testing import (
+    BrokenDocument,
+    broken_documents,
+    hostile_inputs,
+    mutants,
+    worlds,
+)
 from tools.fuzz.registry import note, of
 
 __all__ = ["survives"]
@@ -112,7 +118,15 @@ def anything_archived(data: bytes) -> None:
     survives(data)
 
 
-@of(lambda: st.one_of(mutants(), physics_documents(), _bytes()))
+@of(hostile_inputs, weight=2)
 def anything_at_all(data: bytes) -> None:
-    """What else was found, by coverage or by hand."""
+    """What attacks a reader, and what guidance by coverage found."""
     survives(data)
+
+
+@of(lambda: broken_documents(errors=True), weight=2)
+def anything_broken(document: BrokenDocument) -> None:
+    """A document with a fault is told as that, and refused, mended or loaded without it."""
+    found = {finding.code for finding in colladaphy.validate(document.data)}
+    assert document.rule in found
+    survives(note(document.data))

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from colladaphy.errors import DocumentError
 from colladaphy.links import rules
+from colladaphy.links.names import MOST_INSTANCES
 from colladaphy.links.pool import is_unreachable
 from colladaphy.links.poses import Poses
 from colladaphy.mapper.loading.tables import Tables
@@ -22,8 +23,6 @@ from colladaphy.mapper.loading.tables import Tables
 __all__ = ["Expansion", "expand"]
 
 Array = NDArray[Any]
-
-_MOST_INSTANCES = 1_000_000
 
 
 @dataclass(slots=True)
@@ -92,7 +91,7 @@ def expand(tables: Tables, roots: Array) -> Expansion:
             chain_count += len(fresh[0])
         keep = _outside_circles(tables, levels, rows, models, around)
         rows, models, around, chains = (column[keep] for column in (rows, models, around, chains))
-        if count + len(rows) > _MOST_INSTANCES:
+        if count + len(rows) > MOST_INSTANCES:
             home = tables.pool.resources[int(tables.model_instances.homes(rows[:1])[0])]
             element = home.element(int(tables.model_instances.ordinals[rows[0]]))
             raise DocumentError(rules.BUDGET.at(element, file=home.file))

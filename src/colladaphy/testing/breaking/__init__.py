@@ -1,0 +1,1 @@
+"""Documents with one fault each, and those that nearly have it."""
