@@ -134,6 +134,7 @@ class Sources:
         whole = [self._whole(array) for array in self.arrays.tolist()]
         lengths = counted(np.array(whole, dtype=object))
         self.counts[(lengths >= 0) & (last > lengths) & (self.counts > 0)] = -1
+        self._faulty = context.shared(_faulty_arrays) | context.shared(_faulty_accessors)
 
     def _whole(self, array: int) -> int:
         """How many values an array has, or says that it has."""
@@ -155,7 +156,7 @@ class Sources:
     def numbers(self, row: int) -> Array | None:
         """The items (n, stride) of a source of numbers; None where they cannot be read."""
         array = int(self.arrays[row])
-        if array < 0 or self.context.name(array) != "float_array":
+        if array < 0 or self.context.name(array) != "float_array" or self._is_faulty(row):
             return None
         values = self.values(array)
         start, step, count = int(self.starts[row]), int(self.steps[row]), int(self.counts[row])
@@ -166,10 +167,14 @@ class Sources:
             part = np.append(part, np.zeros(step * count - len(part)))
         return part.reshape(count, step)
 
+    def _is_faulty(self, row: int) -> bool:
+        """Whether its values are others than were meant, as is told at array or accessor."""
+        return bool(self._faulty & {int(self.arrays[row]), int(self.accessors[row])})
+
     def words(self, row: int) -> list[str] | None:
         """The words of a source of names."""
         array = int(self.arrays[row])
-        if array < 0 or self.context.name(array) not in TOKEN_ARRAYS:
+        if array < 0 or self.context.name(array) not in TOKEN_ARRAYS or self._is_faulty(row):
             return None
         return words_of(self.context, array)
 
@@ -209,6 +214,15 @@ def _lengths(context: Context) -> dict[int, int]:
         if len(words):
             found.update(zip(words.ordinals.tolist(), map(len, words.value), strict=True))
     return found
+
+
+def _faulty_arrays(context: Context) -> set[int]:
+    return {hit.element for hit in counts(context)}
+
+
+def _faulty_accessors(context: Context) -> set[int]:
+    rules = (geometry_rules.ACCESSOR_STRIDE, geometry_rules.ACCESSOR_RANGE)
+    return {hit.element for hit in accessors(context) if hit.rule in rules}
 
 
 def counts(context: Context) -> Iterator[Hit]:

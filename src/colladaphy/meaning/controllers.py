@@ -251,8 +251,9 @@ def morphs(context: Context) -> Iterator[Hit]:
         if source < 0:
             continue
         count = table.count(source)
-        if weights >= 0 and count != table.count(weights):
-            message = f"There are {count} targets and {table.count(weights)} weights."
+        others = None if weights < 0 else table.count(weights)
+        if count is not None and others is not None and count != others:
+            message = f"There are {count} targets and {others} weights."
             yield Hit(animation_rules.MORPH_TARGETS, element, message)
             continue
         words, array = table.words(source), int(table.arrays[source])

@@ -100,7 +100,7 @@ def numbers(context: Context) -> Iterator[Hit]:
         lists = context.at(FloatRows, mine).value
         for row in np.flatnonzero(np.diff(lists.offsets) == 1).tolist():
             value = float(lists[row][0])
-            if not least <= value <= most or (name == "index_of_refraction" and value == 0.0):
+            if not least <= value <= most:
                 message = f"The {name.replace('_', ' ')} is {value:g}."
                 yield Hit(scene_rules.EFFECT_VALUE, int(mine[row]), message)
 

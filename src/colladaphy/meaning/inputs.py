@@ -115,6 +115,8 @@ def links(context: Context) -> Iterator[Hit]:
         name, semantic, target = context.name(owner), inputs.semantics[row], inputs.targets[row]
         if name in PRIMITIVES and semantic == "VERTEX":
             expected: tuple[str, ...] = ("vertices",)
+        elif name in PRIMITIVES and inputs.named(owner, "VERTEX") < 0:
+            expected = ("source", "vertices")  # the semantic is wrong, and that is told
         elif name in _BREP:
             expected = ("source", "vertices", *_BREP)
         else:

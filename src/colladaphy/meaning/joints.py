@@ -56,11 +56,14 @@ def limits(context: Context) -> Iterator[Hit]:
                 f"The {what} limits along {'xyz'[axis]} are from {low[row, axis]:g} to "
                 f"{high[row, axis]:g}."
             )
+            at, other = int(low_elements[row]), int(high_elements[row])
+            if np.isnan(high[row, axis]) and not np.isnan(low[row, axis]):
+                at, other = other, at
             yield Hit(
                 physics_rules.JOINT_LIMITS,
-                int(low_elements[row]),
+                at,
                 message,
-                (int(high_elements[row]),),
+                (other,),
             )
         if what == "angular":
             for row in np.flatnonzero(there & ~wrong).tolist():

@@ -58,9 +58,10 @@ def limits(context: Context) -> Iterator[Hit]:
     stated = ~context.is_within(rows.ordinals, "axis_info")
     for row in np.flatnonzero(there & (~(low <= high) & (stated | (low > high)))).tolist():
         message = f"The lower limit is {low[row]:g}, the upper one {high[row]:g}."
-        yield Hit(
-            kinematics_rules.LIMITS, int(low_elements[row]), message, (int(high_elements[row]),)
-        )
+        at, other = int(low_elements[row]), int(high_elements[row])
+        if np.isnan(high[row]) and not np.isnan(low[row]):
+            at, other = other, at
+        yield Hit(kinematics_rules.LIMITS, at, message, (other,))
     for row in np.flatnonzero(turns & there & (low <= high)).tolist():
         if looks_like_radians(np.array([low[row], high[row]])):
             message = f"From {low[row]:g} to {high[row]:g} degrees is what radians look like."

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from colladaphy.meaning.inputs import PRIMITIVES, inputs_of
 from colladaphy.meaning.semantics import unfit_inputs
 from colladaphy_schema.rows import Lists
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "groups_of", "miscounted"]
 
 Array = NDArray[Any]
 
@@ -78,16 +79,30 @@ def groups_of(context: Context) -> list[_Group]:
 
 def counts(context: Context) -> Iterator[Hit]:
     """Primitives whose counts and corners do not agree."""
+    for hits in context.shared(_counted).values():
+        yield from hits
+
+
+def miscounted(context: Context) -> frozenset[int]:
+    """The primitives of which something of this kind is told."""
+    return frozenset(context.shared(_counted))
+
+
+def _counted(context: Context) -> dict[int, list[Hit]]:
     inputs = inputs_of(context)
+    found: dict[int, list[Hit]] = {}
     for group in groups_of(context):
         if not inputs.of(group.element):
             continue  # said by the rule of inputs
         if group.name == "polylist":
-            yield from _polylist(group)
+            hits = list(_polylist(group))
         elif group.name in _PER_FACE:
-            yield from _faces(group)
+            hits = list(_faces(group))
         else:
-            yield from _lists(context, group)
+            hits = list(_lists(context, group))
+        if hits:
+            found[group.element] = hits
+    return found
 
 
 def _faces(group: _Group) -> Iterator[Hit]:
@@ -158,8 +173,10 @@ def indices(context: Context) -> Iterator[Hit]:
     Where an index is lacking it is not told which of the others are wrong.
     """
     inputs, unfit = inputs_of(context), unfit_inputs(context)
+    told: dict[int, Hit] = {}
+    beyond: Counter[int] = Counter()
     for group in groups_of(context):
-        limits: dict[int, tuple[int, str]] = {}
+        limits: dict[int, tuple[int, str, int]] = {}
         for row in inputs.of(group.element):
             count = inputs.count(row)
             behind = inputs.named(int(inputs.targets[row]), "POSITION")
@@ -167,19 +184,25 @@ def indices(context: Context) -> Iterator[Hit]:
                 continue
             offset = int(inputs.offsets[row])
             if offset not in limits or count < limits[offset][0]:
-                limits[offset] = count, inputs.semantics[row]
+                limits[offset] = count, inputs.semantics[row], int(inputs.targets[row])
         for element, values in group.parts:
             if len(values) % (group.stride * _PER_FACE.get(group.name, 1)):
                 continue  # which index is of what cannot be told
-            for offset, (count, semantic) in sorted(limits.items()):
+            for offset, (count, semantic, target) in sorted(limits.items()):
                 mine = values[offset :: group.stride]
                 if len(mine) and int(mine.max()) >= count:
                     message = (
                         f"The index {int(mine.max())} of {semantic} is past the last of "
                         f"{count} values, which is {count - 1}."
                     )
-                    yield Hit(geometry_rules.INDEX_RANGE, element, message, (group.element,))
+                    hit = Hit(geometry_rules.INDEX_RANGE, element, message, (group.element,))
+                    told.setdefault(target, hit)
+                    beyond[target] += 1
                     break
+    for target, hit in told.items():
+        # Lists of one geometry that all lead past the end are wrong there, and not each.
+        more = f" {beyond[target] - 1} more lists do so." if beyond[target] > 1 else ""
+        yield replace(hit, message=hit.message + more)
 
 
 CHECKS = (counts, indices)

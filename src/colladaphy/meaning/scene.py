@@ -159,7 +159,8 @@ def cameras(context: Context) -> Iterator[Hit]:
                     )
                 elif not near[1] < far[1]:
                     message = f"The near plane is at {near[1]:g}, the far plane at {far[1]:g}."
-                    yield Hit(scene_rules.CAMERA_CLIP, near[0], message, (far[0],))
+                    at, other = (far, near) if math.isnan(far[1]) else (near, far)
+                    yield Hit(scene_rules.CAMERA_CLIP, at[0], message, (other[0],))
             for name, known in values.items():
                 if row not in known or name in ("znear", "zfar"):
                     continue

@@ -20,7 +20,7 @@ from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.constraint_table import AttachmentRows, limits_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.node_table import nodes_of, odd_transforms
+from colladaphy.meaning.node_table import nodes_of, unclear_nodes
 from colladaphy.meaning.profile_table import Profile, profile_of
 from colladaphy.meaning.shape_table import shapes_of
 from colladaphy_schema.rows import Rows
@@ -53,6 +53,11 @@ def _same(one: Array, other: Array) -> bool:
     return bool(np.all(close | (one == other)))
 
 
+def _is_told(*values: Array) -> bool:
+    """Whether a value is no number that there can be, which is told elsewhere."""
+    return not all(bool(np.isfinite(each).all()) for each in values)
+
+
 def _hit(what: str, element: int, stated: Array, kept: Array, other: int) -> Hit:
     one, two = (" ".join(f"{value:g}" for value in values.tolist()) for values in (stated, kept))
     message = f"The {what} is {one} in the common profile, {two} in the pe profile."
@@ -70,7 +75,9 @@ def masses(context: Context) -> Iterator[Hit]:
         if row < 0 or bodies.mass_elements[row] < 0:
             continue
         stated = bodies.masses[row : row + 1]
-        if value[0] >= 0.0 and not _same(stated, value):
+        if value[0] < 0.0 or not stated[0] >= 0.0 or _is_told(stated, value):
+            continue
+        if not _same(stated, value):
             yield _hit("mass", element, stated, value, int(bodies.mass_elements[row]))
 
 
@@ -90,7 +97,9 @@ def sizes(context: Context) -> Iterator[Hit]:
         at = dict(zip(shapes.elements[rows.owner].tolist(), range(len(rows)), strict=True))
         for place, shape in enumerate(context.parent[around].tolist()):
             row = at.get(pairs.get(shape, -1), -1)
-            if row < 0 or not (values[place] > 0.0).all():
+            if row < 0 or not (values[place] > 0.0).all() or not (stated[row] > 0.0).all():
+                continue
+            if _is_told(stated[row], values[place]):
                 continue
             if not _same(stated[row] * factor, values[place]):
                 yield _hit(f"{name} of the {kind}", int(kept[place]), stated[row] * factor,
@@ -125,7 +134,7 @@ def motions(context: Context) -> Iterator[Hit]:
     places, placed, positions = profile.values("position", 3, "motion")
     if not len(turns) and not len(places):
         return
-    nodes, odd = nodes_of(context), odd_transforms(context)
+    nodes, unclear = nodes_of(context), unclear_nodes(context)
     elements = np.unique(np.concatenate([turned, placed]))
     holders = profile.holders(elements)
     targets = np.array([nodes.targets.get(holder, -1) for holder in holders.tolist()], np.int64)
@@ -138,22 +147,23 @@ def motions(context: Context) -> Iterator[Hit]:
     nested = models[context.is_within(models, "physics_model")]
     around = context.parent[holders]
     good = (targets >= 0) & ~np.isin(around, parents) & ~np.isin(around, nested)
-    if odd:
-        good[good] = [not odd.keys() & set(nodes.chain(node)) for node in targets[good].tolist()]
+    if unclear:
+        good[good] = [not unclear & set(nodes.chain(node)) for node in targets[good].tolist()]
     elements, holders, targets = elements[good], holders[good], targets[good]
     if not len(elements):
         return
     table = context.placement.nodes
     poses, _ = context.placement.poses(table.rows_of(0, targets))
-    inner, single, plane = _inner_poses(context, holders)
+    inner, single, plane, clear = _inner_poses(context, holders)
     whole = poses.then(inner)
     mine, at = _matched(elements, turned)
+    mine, at = (each[np.isfinite(orientations[mine]).all(axis=1)] for each in (mine, at))
     units = unit_quaternions(orientations[mine])
     stated = whole.orientations[at]
     apart = np.minimum(np.abs(units - stated).max(axis=1, initial=0.0),
                        np.abs(units + stated).max(axis=1, initial=0.0))  # fmt: skip
     for row in np.flatnonzero(
-        (apart > _TURN) & orientations[mine].any(axis=1) & ~plane[at]
+        (apart > _TURN) & orientations[mine].any(axis=1) & ~plane[at] & clear[at]
     ).tolist():
         yield _hit("orientation", int(turns[mine[row]]), stated[row], orientations[mine[row]],
                    int(targets[at[row]]))  # fmt: skip
@@ -162,7 +172,8 @@ def motions(context: Context) -> Iterator[Hit]:
     columns = (positions[mine], stated, inner.positions[at])
     scale = np.max([np.abs(column).max(axis=1, initial=0.0) for column in columns], axis=0)
     apart = np.abs(positions[mine] - stated).max(axis=1, initial=0.0)
-    for row in np.flatnonzero((apart > 10.0 * _DIGITS * scale) & single[at]).tolist():
+    told = ~np.isfinite(positions[mine]).all(axis=1) | ~clear[at]
+    for row in np.flatnonzero((apart > 10.0 * _DIGITS * scale) & single[at] & ~told).tolist():
         yield _hit("position", int(places[mine[row]]), stated[row], positions[mine[row]],
                    int(targets[at[row]]))  # fmt: skip
 
@@ -176,8 +187,10 @@ def _matched(elements: Array, wanted: Array) -> tuple[Array, Array]:
     return mine, at[mine]
 
 
-def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Array]:
-    """The frames of Worlds' bodies in their rigid_bodies, whether the place is known, and planes.
+def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Array, Array]:
+    """The frames of Worlds' bodies in their rigid_bodies, whether the place is known, planes.
+
+    The last is of which frames nothing is faulty.
 
     A body of one shape has the frame of that shape, one of several has its own.
     """
@@ -196,8 +209,10 @@ def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Arra
     single = np.searchsorted(holders, source, side="right") - begin == 1
     made = Poses.none(len(instances))
     known, flat = np.zeros(len(instances), np.bool_), np.zeros(len(instances), np.bool_)
+    clear = np.ones(len(instances), np.bool_)
     mine = np.flatnonzero(single)
     shape = order[begin[mine]]
+    clear[mine] = ~np.isin(shapes.elements[shape], list(unclear_nodes(context)))
     plane = np.isin(shape, context.children(shapes.rows, "plane", Rows).owner)
     flat[mine[plane]] = True  # turned as its normal says
     mine, shape = mine[~plane], shape[~plane]
@@ -218,7 +233,7 @@ def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Arra
         pose = made.take(turning)
         turn = quaternion_product(pose.orientations, np.broadcast_to(_ROD, (len(turning), 4)))
         made.put(turning, Poses.of(len(turning), pose.positions, turn, moved=pose.moved))
-    return made, known, flat
+    return made, known, flat, clear
 
 
 def _velocities(context: Context, profile: Profile) -> Iterator[Hit]:
@@ -279,7 +294,11 @@ def worlds(context: Context) -> Iterator[Hit]:
             kept.tolist(), profile.holders(kept).tolist(), values, strict=True
         ):
             row = at.get(holder, -1)
-            if row >= 0 and places[row] >= 0 and not _same(stated[row], value):
+            if row < 0 or places[row] < 0 or _is_told(stated[row], value):
+                continue
+            if name == "time_step" and not stated[row, 0] > 0.0:
+                continue
+            if not _same(stated[row], value):
                 yield _hit(name.replace("_", " "), element, stated[row], value, int(places[row]))
 
 

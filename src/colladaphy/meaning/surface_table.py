@@ -12,7 +12,7 @@ from colladaphy.columns.counting import counted
 from colladaphy.meaning.arrays import sources_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.inputs import inputs_of
-from colladaphy.meaning.primitives import groups_of
+from colladaphy.meaning.primitives import groups_of, miscounted
 
 __all__ = ["Surface", "surface_of"]
 
@@ -54,10 +54,12 @@ def _rings(context: Context, geometry_of: dict[int, int]) -> dict[int, list[tupl
     """The corners, and the sizes, of the faces of each geometry."""
     inputs = inputs_of(context)
     found: dict[int, list[tuple[Array, Array]]] = {}
+    # Of what is not counted right, nobody can tell the faces.
+    wrong = {geometry_of.get(element, -1) for element in miscounted(context)}
     for group in groups_of(context):
         geometry = geometry_of.get(group.element, -1)
         row = inputs.named(group.element, "VERTEX")
-        if geometry < 0 or row < 0 or group.name in ("lines", "linestrips"):
+        if geometry < 0 or geometry in wrong or row < 0 or group.name in ("lines", "linestrips"):
             continue
         corners = [values[int(inputs.offsets[row]) :: group.stride] for _, values in group.parts]
         made = found.setdefault(geometry, [])
