@@ -38,6 +38,8 @@ _LEVELS = {
 
 Opener = Callable[[str], "Resource"]
 
+_CONVENTION = "{urn:colladaphy:conform:1}convention"
+
 
 class Resource:
     """A schema-valid document, without an idea of what it is for."""
@@ -159,6 +161,20 @@ class Resource:
     def sids(self) -> Sids:
         """The elements by scoped id."""
         return Sids(self.columns)
+
+    @cached_property
+    def converted_digits(self) -> int | None:
+        """The significant digits that values had which `conform` converted; None for none.
+
+        What was computed from them has more, but is no more exact.
+        """
+        columns = self.columns
+        for code in columns.codes_of(_CONVENTION):
+            for element in columns.index.rows(code).tolist():
+                digits = columns.attribute_of(element, "digits") or ""
+                if digits.isdecimal():
+                    return int(digits)
+        return None
 
     @cached_property
     def _asset(self) -> AssetTypeRows:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -13,6 +15,7 @@ from tests.conform.bullet.scenes import scenes
 from tests.conform.bullet.test_bullet import constrained
 from tests.conform.bullet.test_same_meaning import free
 
+import colladaphy
 from colladaphy.conform import conform
 
 
@@ -50,6 +53,32 @@ def test_a_joint_to_the_world_comes_back_where_the_body_is(export: Export) -> No
     moved = read_again(rewrite(text, {"b": State(position=(4, 2, 3))})).constraints[0]
     assert (moved.first, moved.second) == (0, None)
     assert moved.frames[1][:3, 3] == pytest.approx([4, 3, 3], abs=1e-4)
+
+
+def test_a_body_that_turns_and_was_not_touched_is_not_taken_for_edited(export: Export) -> None:
+    """What is compared with the profile has the digits of the file, also where it is converted."""
+    world = colladaphy.World()
+    for uid, spin in ((1, (0.1, 0.2, 1 / 3)), (2, (0, 0, 0))):
+        box = world.create_box(uid, (uid / 3, 2 / 7, 3), (1, 2 / 3, 3), "oak")
+        box.rotate(0.0698, 0.2138, 0.2897)
+        box.angular_velocity = spin
+    stream = io.BytesIO()
+    colladaphy.write(world, stream)
+    text, _ = export(stream.getvalue())
+    document = colladaphy.read(rewrite(text), repair=True)
+    again = document.load()
+    stale = [finding for finding in document.report if "old-value" in finding.code]
+    assert stale == []
+    for one, two in zip(world.bodies, again.bodies, strict=True):
+        assert one.orientation.tolist() == two.orientation.tolist()
+        assert np.allclose(one.angular_velocity, two.angular_velocity, rtol=1e-5, atol=0)
+    # What Bullet did turn is.
+    edited = text.decode().split("<rotate>")
+    turned = "<rotate>".join([edited[0], *("0 0 1 45" + part[part.index("</rotate>"):]
+                                           for part in edited[1:])])  # fmt: skip
+    document = colladaphy.read(rewrite(turned.encode()), repair=True)
+    document.load()
+    assert len([finding for finding in document.report if "old-value" in finding.code]) == 2
 
 
 def compare(want: standard_reader.Scene, got: standard_reader.Scene, tolerance: float) -> None:

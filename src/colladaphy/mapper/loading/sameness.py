@@ -49,6 +49,8 @@ def tolerance_of(resource: Resource, *elements: int) -> float:
                 if word[-1:].isdigit():
                     most = max(most, significant_digits(word))
     digits = min(most, _ALL_DIGITS)
+    if resource.converted_digits is not None:
+        digits = min(digits, max(_FEWEST_DIGITS, resource.converted_digits))
     # Half a unit of the last digit of a number that begins with 1, and some for arithmetic.
     return 0.5 * 10.0 ** (1 - digits) * 1.000001
 
