@@ -115,3 +115,12 @@ def test_without_the_option_there_are_none() -> None:
     assert b"kinematics" not in stream.getvalue()
     with pytest.raises(TypeError):
         colladaphy.WriteOptions(kinematic=True)  # type: ignore[call-arg]
+
+
+def test_limits_beyond_all_degrees_are_written_without_a_warning() -> None:
+    world = World()
+    box = world.create_box(1, (0, 0, 0), (1, 1, 1), "oak")
+    joint = world.attach_hinge_joint(box, None, axis=(0, 0, 1))
+    joint.angular_max = np.where(np.isfinite(joint.angular_max), joint.angular_max, 1.7e308)
+    joint.angular_min = np.where(np.isfinite(joint.angular_min), joint.angular_min, -1.7e308)
+    assert compare(colladaphy.read(written(world)).load(), world) == []

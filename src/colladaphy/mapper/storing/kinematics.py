@@ -160,9 +160,11 @@ def _axes(world: World, joint: Joint, *, backward: bool) -> list[_Axis]:
     """The freedoms of a joint in their order, seen from the other body if `backward`."""
     shift, turn = _values(joint)
     made: list[_Axis] = []
+    with np.errstate(over="ignore"):  # a limit beyond all degrees is none
+        least, most = np.degrees(joint.angular_min), np.degrees(joint.angular_max)
     for slides, low, high, value in (
         (True, joint.linear_min, joint.linear_max, shift),
-        (False, np.degrees(joint.angular_min), np.degrees(joint.angular_max), turn),
+        (False, least, most, turn),
     ):
         for axis in range(3):
             if low[axis] == high[axis] == 0.0:
