@@ -106,6 +106,52 @@ def sizes(context: Context) -> Iterator[Hit]:
                            values[place], int(elements[row]))  # fmt: skip
 
 
+def radii(context: Context) -> Iterator[Hit]:
+    """Radii of capsules and cylinders, whichever axes they are along."""
+    profile = profile_of(context)
+    for kind, width in (("capsule", 3), ("cylinder", 2)):
+        kept, around, values = profile.values("radii", 3, kind)
+        if not len(kept):
+            continue
+        shapes, pairs = shapes_of(context), _paired(context, profile)
+        rows = context.children(shapes.rows, kind, Rows)
+        stated, elements = context.vectors(rows, "radius", width)
+        at = dict(zip(shapes.elements[rows.owner].tolist(), range(len(rows)), strict=True))
+        for place, shape in enumerate(context.parent[around].tolist()):
+            row = at.get(pairs.get(shape, -1), -1)
+            mine = values[place, 3 - width :]
+            if row < 0 or _is_told(stated[row], mine):
+                continue
+            if not (stated[row] > 0.0).all() or not (mine > 0.0).all():
+                continue
+            if not _same(np.sort(stated[row]), np.sort(mine)):
+                yield _hit(f"radius of the {kind}", int(kept[place]), stated[row], mine,
+                           int(elements[row]))  # fmt: skip
+
+
+def materials(context: Context) -> Iterator[Hit]:
+    """Restitution and friction of physics materials."""
+    profile = profile_of(context)
+    rows = context.rows(Rows, "physics_material")
+    assert rows.ordinals is not None
+    common = context.children(rows, "technique_common", Rows)
+    at = {int(rows.ordinals[owner]): row for row, owner in enumerate(common.owner.tolist())}
+    for name, most in (("restitution", 1.0), ("static_friction", np.inf),
+                       ("dynamic_friction", np.inf)):  # fmt: skip
+        kept, _, values = profile.values(name, 1, "material")
+        if not len(kept):
+            continue
+        stated, places = context.vectors(common, name, 1)
+        holders = profile.holders(kept)
+        holders = np.where(context.is_named(holders, "extra"), context.parent[holders], holders)
+        for element, holder, value in zip(kept.tolist(), holders.tolist(), values, strict=True):
+            row = at.get(holder, -1)
+            if row < 0 or places[row] < 0 or _is_told(stated[row], value):
+                continue
+            if 0.0 <= stated[row, 0] <= most and not _same(stated[row], value):
+                yield _hit(name.replace("_", " "), element, stated[row], value, int(places[row]))
+
+
 def _paired(context: Context, profile: Profile) -> dict[int, int]:
     """The shapes of bodies by those of their profiles, where there are as many."""
     own: dict[int, list[int]] = {}
@@ -268,11 +314,15 @@ def limits(context: Context) -> Iterator[Hit]:
     ):  # fmt: skip
         for part, stated in zip(("min", "max"), limits_of(context, other), strict=True):
             kept, _, values = profile.values(part, 3, name)
-            for element, holder, value in zip(
-                kept.tolist(), profile.holders(kept).tolist(), values, strict=True
+            others = profile.values("max" if part == "min" else "min", 3, name)[2]
+            wrong = (
+                (values > others).any(axis=1) if part == "min" else (values < others).any(axis=1)
+            )
+            for element, holder, value, told in zip(
+                kept.tolist(), profile.holders(kept).tolist(), values, wrong.tolist(), strict=True
             ):
                 row = at.get(holder, -1)
-                if row >= 0 and not _same(stated[row] * factor, value):
+                if row >= 0 and not told and not _same(stated[row] * factor, value):
                     what = f"{part} of the {name.replace('_', ' ')}"
                     yield _hit(what, element, stated[row] * factor, value, holder)
 
@@ -302,4 +352,4 @@ def worlds(context: Context) -> Iterator[Hit]:
                 yield _hit(name.replace("_", " "), element, stated[row], value, int(places[row]))
 
 
-CHECKS = (masses, sizes, motions, limits, worlds)
+CHECKS = (masses, sizes, radii, materials, motions, limits, worlds)
