@@ -41,6 +41,15 @@ _RANGES = {
     "length": 0.0,
 }
 """Values that may not be negative; -1 where they may not be zero either."""
+_OF_MATERIALS = {
+    "restitution": (0.0, 1.0),
+    "static_friction": (0.0, np.inf),
+    "dynamic_friction": (0.0, np.inf),
+    "poisson_ratio": (-1.0, 0.5),
+    "young_modulus": (0.0, np.inf),
+    "damping_normal": (0.0, np.inf),
+    "damping_tangential": (0.0, np.inf),
+}
 _FINITE = (
     "position", "orientation", "linear_velocity", "angular_velocity", "force", "torque", "gravity",
     "time_step", "radius", "radii", "lengths", "length", "normal", "anchor", "displacement",
@@ -133,6 +142,13 @@ def ranges(context: Context) -> Iterator[Hit]:
         ).tolist():
             shown = " ".join(f"{value:g}" for value in lists[row].tolist())
             yield Hit(profile_rules.VALUE, int(elements[row]), f"<pe:{name}> is {shown}.")
+    for name, (least, most) in _OF_MATERIALS.items():
+        elements, _, values = profile.values(name, 1, "material")
+        for row in np.flatnonzero((values[:, 0] < least) | (values[:, 0] > most)).tolist():
+            message = (
+                f"<pe:{name}> is {values[row, 0]:g}; loading takes the nearest value there is."
+            )
+            yield Hit(profile_rules.VALUE, int(elements[row]), message, severity=Severity.WARNING)
     tensors, _, values = profile.values("inertia", 9, "body", "shape", "union")
     sizes = np.abs(values).max(axis=1, initial=0.0)
     some = np.flatnonzero((sizes > 0.0) & (sizes < np.inf))

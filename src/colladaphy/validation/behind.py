@@ -144,7 +144,8 @@ class _Ours:
         """Whether it may be the mending that a rule speaks of."""
         if hit.rule.stage == "link" and hit.attribute is not None:
             # A reference is right or wrong by itself, where nobody has taken its target away.
-            text = self._elements[hit.element].get(hit.attribute) or ""
+            element = self._elements[hit.element]
+            text = (element.get(hit.attribute) if hit.attribute else element.text) or ""
             names = text.translate(SEPARATORS).split()
             return hit.element in self._changed or not self._done.names.isdisjoint(names)
         around = [hit.element, *hit.related]
