@@ -89,7 +89,8 @@ class Document(Choosable):
     @property
     def related(self) -> list[str]:
         """The files of other documents that references in this one were followed to."""
-        others = (other for other in self._resource.family.values() if other is not self._resource)
+        family = self._resource.family  # in which "" is a state of this document itself
+        others = (other for key, other in family.items() if key and other is not self._resource)
         return sorted({other.file or "?" for other in others} - {self.file or ""})
 
     @property
