@@ -13,6 +13,7 @@ __all__ = [
     "C",
     "child",
     "common",
+    "free_id",
     "insert_in_order",
     "is_common",
     "local",
@@ -70,3 +71,12 @@ def insert_in_order(
             place = position + 1
     parent.insert(place, made)
     return made
+
+
+def free_id(root: etree._Element, wanted: str) -> str:
+    """An id that no element of a document has."""
+    taken = {element.get("id") for element in root.iter(etree.Element)}
+    number = 0
+    while f"{wanted}-{number}" in taken:
+        number += 1
+    return f"{wanted}-{number}"

@@ -7,7 +7,7 @@ import copy
 from hypothesis import strategies as st
 from lxml import etree
 
-from colladaphy.testing.changing.elements import C, child, common, insert_in_order, make
+from colladaphy.testing.changing.elements import C, child, common, free_id, insert_in_order, make
 
 __all__ = ["add_body", "copy_body", "remove_body"]
 
@@ -43,7 +43,7 @@ def copy_body(draw: st.DrawFn, instance: Element) -> None:
 def add_body(draw: st.DrawFn, instance: Element) -> None:
     """A ball in a model of its own, which stands beside another one or in it."""
     root = instance.getroottree().getroot()
-    model = make("physics_model", id=_free(root, "new-model"))
+    model = make("physics_model", id=free_id(root, "new-model"))
     body = make("rigid_body", sid="ball")
     technique, shape, sphere = make("technique_common"), make("shape"), make("sphere")
     sphere.append(make("radius", repr(draw(_radii))))
@@ -63,13 +63,13 @@ def add_body(draw: st.DrawFn, instance: Element) -> None:
 
 def _new_node(draw: st.DrawFn, root: Element) -> str:
     """The id of a new node in the visual scene, which is made where there is none."""
-    node = make("node", id=_free(root, "new-node"))
+    node = make("node", id=free_id(root, "new-node"))
     place = " ".join(map(str, draw(st.tuples(*[st.integers(-5, 5)] * 3))))
     node.append(make("translate", place))
     scenes = common(root, "visual_scene")
     scene = scenes[0] if scenes else None
     if scene is None:
-        scene = make("visual_scene", id=_free(root, "new-visual"))
+        scene = make("visual_scene", id=free_id(root, "new-visual"))
         library = make("library_visual_scenes")
         library.append(scene)
         insert_in_order(root, library, ("asset",))
@@ -83,12 +83,3 @@ def _show(root: Element, id: str) -> None:
     if effect is not None and child(effect, "instance_visual_scene") is None:
         shown = make("instance_visual_scene", url=f"#{id}")
         insert_in_order(effect, shown, ("instance_physics_scene",))
-
-
-def _free(root: Element, wanted: str) -> str:
-    """An id that no element has."""
-    taken = {element.get("id") for element in root.iter(etree.Element)}
-    number = 0
-    while f"{wanted}-{number}" in taken:
-        number += 1
-    return f"{wanted}-{number}"

@@ -9,7 +9,7 @@ from random import Random
 from hypothesis import strategies as st
 from lxml import etree
 
-from colladaphy.testing.changing.elements import NUMERIC, C, child, common, local, make
+from colladaphy.testing.changing.elements import NUMERIC, C, child, common, free_id, local, make
 from colladaphy.testing.changing.spelling import respelled, spellings
 
 __all__ = ["REWRITES", "Change", "Element", "of", "whole"]
@@ -152,6 +152,17 @@ def _is_own(element: Element) -> bool:
     return not any(above.tag == f"{C}technique" for above in element.iterancestors())
 
 
+def _placed_nodes(root: Element) -> list[Element]:
+    """Nodes that stand where they are; those of a library stand where they are instanced."""
+    return [node for node in common(root, "node") if local(_parent(node)) != "library_nodes"]
+
+
+def _parent(element: Element) -> Element:
+    parent = element.getparent()
+    assert parent is not None
+    return parent
+
+
 def _wrap(draw: st.DrawFn, node: Element) -> None:
     """A node within a node that moves nothing."""
     outer = make("node")
@@ -180,7 +191,7 @@ def _unused(draw: st.DrawFn, root: Element) -> None:
             again = copy.deepcopy(model)
             for element in again.iter(f"{C}*"):
                 if element.get("id") is not None:
-                    element.set("id", element.get("id", "") + "-again")
+                    element.set("id", free_id(root, element.get("id", "")))
             model.addnext(again)
 
 
@@ -198,7 +209,7 @@ REWRITES: dict[str, Change] = {
     "libraries-reordered": (whole, _reorder),
     "libraries-split": (_libraries_of_several, _split),
     "ids": (whole, _rename),
-    "nodes-wrapped": (of("node"), _wrap),
+    "nodes-wrapped": (_placed_nodes, _wrap),
     "transforms-still": (of("node"), _still),
     "names": (of("node", "physics_model", "physics_scene", "geometry"), _name),
     "models-unused": (whole, _unused),
