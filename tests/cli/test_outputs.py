@@ -411,3 +411,39 @@ def test_simulate_takes_limits_and_conventions(cli: Runner, tmp_path: Path) -> N
     assert cli("simulate", source, "--steps", 0, "--engine", "mujoco").code == 1
     mended = cli("simulate", source, "--steps", 0, "--engine", "mujoco", "--convention", "none")
     assert mended.code == 0
+
+
+def test_merging_makes_a_document_that_stands_alone(cli: Runner, tmp_path: Path) -> None:
+    import colladaphy
+    from colladaphy.world import compare
+
+    source = cart(tmp_path / "in")
+    (tmp_path / "in" / "parts" / "tin.png").write_bytes(b"PNG")
+    wheel = tmp_path / "in" / "parts" / "wheel.dae"
+    image = b'<library_images><image id="i"><init_from><ref>tin.png</ref></init_from></image>'
+    wheel.write_bytes(
+        wheel.read_bytes().replace(
+            b"<library_physics_models>", image + b"</library_images><library_physics_models>", 1
+        )
+    )
+    before = colladaphy.read(source).load()
+    out = tmp_path / "out"
+    out.mkdir()
+    result = cli("convert", source, out / "new.dae", "--merge")
+    assert result.code == 0 and result.err.count("io-companion-merged") == 2
+    assert sorted(files(out)) == ["new.dae", "parts/tin.png", "wood nut.png"]
+    document = colladaphy.read(out / "new.dae")
+    assert compare(before, document.load()) == [] and len(before.bodies) == 1
+    assert document.related == [] and not document.report.errors
+    assert b".dae" not in (out / "new.dae").read_bytes()
+    ids = [e.get("id") for e in document.tree.iter("{*}physics_model", "{*}node", "{*}image")]
+    assert len(set(ids)) == len(ids) == 8
+
+
+def test_what_cannot_be_merged_stays_referred_to(cli: Runner, tmp_path: Path) -> None:
+    source = cart(tmp_path / "in")
+    (tmp_path / "in" / "parts" / "more" / "bolt.dae").unlink()
+    result = cli("convert", source, tmp_path / "new.dae", "--merge")
+    assert result.code == 0 and "io-reference-missing" in result.err
+    assert b'url="parts/more/bolt.dae#m"' in (tmp_path / "new.dae").read_bytes()
+    assert "bodies: 1 " in cli("info", tmp_path / "new.dae").out

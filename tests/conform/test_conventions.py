@@ -283,6 +283,28 @@ def test_nxustream_is_known_by_its_author_and_its_still_springs_cost_no_constrai
     }  # fmt: skip
 
 
+@pytest.mark.parametrize(
+    "sign",
+    [
+        '<technique profile="PhysX"><kinematic>false</kinematic></technique>',
+        "<spring><linear><stiffness>0</stiffness><target_value>INF</target_value></linear></spring>",
+        "",
+    ],
+    ids=["profile", "springs", "none"],
+)
+def test_nxustream_without_a_name_is_known_by_its_profile_or_its_springs(sign: str) -> None:
+    joint = LIMITS.format("0 0 0", "0 0 0").replace("0 1 0", "0 0 0")
+    joint = joint.replace("</limits>", f"</limits>{sign if 'spring' in sign else ''}")
+    shape = BOX
+    extra = f"<extra>{sign}</extra>" if "profile" in sign else ""
+    root, findings = mended(
+        physics(shape, more=joint + extra, instances=MOVING, asset=asset("PhysX Viewer"))
+    )
+    turned = float(words(root, "angular_velocity")[1])
+    assert turned == (np.degrees(3.5) if sign else 3.5)
+    assert ("convention-chosen" in codes(findings)) == bool(sign)
+
+
 def test_a_stiff_spring_keeps_its_target() -> None:
     spring = "</limits><spring><linear><stiffness>2</stiffness><target_value>0.5</target_value>"
     joint = LIMITS.format("0 0 0", "0 0 0").replace("</limits>", spring + "</linear></spring>")

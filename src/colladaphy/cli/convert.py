@@ -47,6 +47,7 @@ __all__ = ["command"]
     "--kinematics", is_flag=True, help="Write joints as kinematics, too, for readers of robots."
 )
 @units_options
+@click.option("--merge", is_flag=True, help="Bring in the documents that IN refers to.")
 @click.option("--strict", is_flag=True, help="Exit with 1 where bodies of IN are lost.")
 @convention_option
 @limits_option
@@ -59,6 +60,7 @@ def command(
     report_file: str | None,
     reader: Target | Literal["collada"],
     kinematics: bool,
+    merge: bool,
     si: bool,
     up_axis: str | None,
     strict: bool,
@@ -87,6 +89,8 @@ def command(
         from colladaphy.validation.mending import backup, mend
 
         mended = mend(source_of(job.source), convention=convention, limits=limits)
+        if merge:
+            mended = mended.merged(convention)
         if si or up_axis is not None or kinematics:
             mended = mended.as_world(convention, si=si, up_axis=up_axis, kinematics=kinematics)
         report = mended.report

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 
 from lxml import etree
 
@@ -11,7 +12,7 @@ from colladaphy.conform.context import NS, Context, local, standard_elements, st
 from colladaphy.conform.lexical import name_from
 from colladaphy.gate.references import EXPECTED
 
-__all__ = ["mend_ids", "mend_sids"]
+__all__ = ["mend_ids", "mend_sids", "rename_ids"]
 
 _NCNAME = re.compile(r"[^\W\d][\w.\-]*")
 # Attributes that hold a url, and those that hold a path of an id and sids.
@@ -52,6 +53,17 @@ def mend_ids(context: Context) -> None:
         user.set("source", new)
         message = f"the input {user.get('semantic')} named {old}, a path; is now {new}"
         context.note(reference_rules.INPUT_PATH, user, message)
+
+
+def rename_ids(root: etree._Element, names: Mapping[str, str]) -> None:
+    """Give ids other names, and rewrite what refers to them in the same document."""
+    changed: dict[str, _Scope] = {}
+    for element in standard_elements_with(root, "id"):
+        old = element.get("id", "")
+        if old in names:
+            element.set("id", names[old])
+            changed[old] = _Scope([(element, names[old])])
+    _rewrite(root, changed)
 
 
 def _inputs_by_path(context: Context) -> list[tuple[etree._Element, etree._Element]]:

@@ -105,6 +105,13 @@ COMPANION_TAKEN = Rule(
     section="COLLADA 1.5 §Address syntax",
     why="Without it, the document would refer to nothing where it is now.",
 )
+MERGED = Rule(
+    "io-companion-merged",
+    _INFO,
+    "A document that was referred to was brought into the one that refers to it.",
+    section="colladaphy convert --merge",
+    why="The document stands alone now.",
+)
 COMPANION_LEFT = Rule(
     "io-companion-left",
     _WARNING,
@@ -269,6 +276,7 @@ RULES = (
     REFERENCE_REFUSED,
     REFERENCE_MISSING,
     COMPANION_TAKEN,
+    MERGED,
     COMPANION_LEFT,
     OUTPUT_FAILED,
     EMPTY,

@@ -22,15 +22,15 @@ from colladaphy.links.names import COLLADA
 from colladaphy.source import Parsed, parse_loaded, rules, save
 from colladaphy.source.references import relative_name
 
-__all__ = ["Companions", "Render", "companions_of"]
+__all__ = ["IMAGES", "Companions", "Render", "companions_of", "file_references", "placed"]
 
 _KEYS = ("url", "source", "target", "parent", "proxy", "convex_hull_of", "camera_node",
          "rigid_body")  # fmt: skip
 _FOUND = etree.XPath(
-    "//@*[" + " or ".join(f"local-name() = '{key}'" for key in _KEYS) + "]"
+    "descendant-or-self::*/@*[" + " or ".join(f"local-name() = '{key}'" for key in _KEYS) + "]"
     "[not(starts-with(., '#'))][not(ancestor::*[local-name() = 'technique'][@profile])]"
 )
-_IMAGES = f"{{{COLLADA}}}init_from/{{{COLLADA}}}ref"
+IMAGES = f"{{{COLLADA}}}init_from/{{{COLLADA}}}ref"
 _DOCUMENTS = (".dae", ".xml")
 
 Render = Callable[[Parsed], tuple[etree._ElementTree, bytes]]
@@ -78,7 +78,7 @@ def companions_of(parsed: Parsed, tree: etree._ElementTree, render: Render) -> C
                 name = normpath(join(folder, relative_name(url)))
                 resource = current.open_relative(url)
             except InputError as error:
-                found.findings += _placed(error, element, current.file)
+                found.findings += placed(error, element, current.file)
                 continue
             if name.startswith("../") or name in found.files:
                 continue
@@ -97,20 +97,28 @@ def companions_of(parsed: Parsed, tree: etree._ElementTree, render: Render) -> C
     return found
 
 
+def file_references(
+    within: etree._Element | etree._ElementTree,
+) -> Iterator[tuple[etree._Element, str, str]]:
+    """References to other documents: the element, the attribute, and its value."""
+    for value in cast("list[etree._ElementUnicodeResult]", _FOUND(within)):
+        element, text = value.getparent(), str(value).strip()
+        if element is not None and split_reference(text)[0]:
+            yield element, str(value.attrname), text
+
+
 def _references(tree: etree._ElementTree) -> Iterator[tuple[etree._Element, str]]:
     """The files that a document names, each with the element that does."""
-    for value in cast("list[etree._ElementUnicodeResult]", _FOUND(tree)):
-        element = value.getparent()
-        file = split_reference(str(value))[0]
-        if file and element is not None:
-            yield element, str(value).strip().partition("#")[0]
-    for image in tree.iterfind(f".//{_IMAGES}"):
+    for element, _, value in file_references(tree):
+        yield element, value.partition("#")[0]
+    for image in tree.iterfind(f".//{IMAGES}"):
         name = (image.text or "").strip()
         if name and not name.startswith("#"):
             yield image, name
 
 
-def _placed(error: InputError, element: etree._Element, file: str | None) -> list[Finding]:
+def placed(error: ColladaError, element: etree._Element, file: str | None) -> list[Finding]:
+    """Why a file cannot be opened, with the place that refers to it."""
     line = cast("int | None", element.sourceline)
     return [
         replace(finding, file=file, line=line, path=element_path(element))

@@ -93,6 +93,17 @@ class Mended:
             for tree in (self.tree, self.parsed.tree)
         )
 
+    def merged(self, convention: str = "auto") -> Mended:
+        """The same with what it refers to in other documents brought in."""
+        from colladaphy.validation.merging import merged
+
+        tree, findings = merged(self.parsed, self.tree, convention)
+        report = Report(self.report.file, [*self.report, *findings])
+        faults = gate(tree)
+        if faults:
+            raise SchemaError(faults)
+        return Mended(self.parsed, tree, report)
+
     def document(self, convention: str = "auto") -> Document:
         """The document that it became."""
         from colladaphy.document.api import document_of_mended

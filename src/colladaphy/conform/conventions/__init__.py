@@ -143,7 +143,10 @@ def translate(context: Context, convention: str) -> None:
         raise ValueError(f"there is no convention {convention!r}; choose one of {names}")
     if convention == "none" or find_note(context, "convention") is not None:
         return
-    clues = replace(read_clues(context), rewritten=bullet.count_rewritten(context))
+    inert = sum(found.code == convention_rules.INERT_SPRING.code for found in context.findings)
+    clues = replace(
+        read_clues(context), rewritten=bullet.count_rewritten(context), inert_springs=inert
+    )
     named = by_name.get(convention)
     chosen = [(named, "asked for by name")] if named else recognised(clues)
     if not chosen or not context.wants(convention_rules.CONVENTION):

@@ -28,7 +28,8 @@ class Clues:
 
     `written_for` is what our own writer noted: the program whose reading the file was made for.
     `bare_pe` is true where the pe profile has no namespace of its own. `rewritten` counts the
-    bodies that turn as Bullet writes it into the files of other tools.
+    bodies that turn as Bullet writes it into the files of other tools, `inert_springs` the springs
+    without stiffness whose target is no number.
     """
 
     tools: str
@@ -38,6 +39,7 @@ class Clues:
     bare_pe: bool
     rewritten: int = 0
     authors: str = ""
+    inert_springs: int = 0
 
     def tool(self, *words: str) -> str | None:
         """The sentence about the first of these words that an authoring tool contains."""

@@ -23,9 +23,18 @@ __all__ = [
 
 
 def recognise_nxustream(clues: Clues) -> str | None:
-    """NxuStream2, the PhysX SDK's own writer, names itself: as the tool, or as the author."""
+    """NxuStream2, the PhysX SDK's own writer, names itself: as the tool, or as the author.
+
+    Where it does not, its profile and its springs tell: nobody else writes an infinite target for
+    a spring without stiffness.
+    """
     names = ("nxustream", "nxu stream", "ageia")
-    return clues.tool(*names) or clues.author(*names)
+    found = clues.tool(*names) or clues.author(*names)
+    if found is None and "PhysX" in clues.profiles:
+        found = "it has the profile PhysX"
+    if found is None and clues.inert_springs:
+        found = f"{clues.inert_springs} springs without stiffness have a target that is no number"
+    return found
 
 
 def recognise_colladamaya(clues: Clues) -> str | None:
