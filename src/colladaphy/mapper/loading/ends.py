@@ -47,6 +47,8 @@ class Ends:
         found, texts = self._found, self._tables.bodies.texts("sid")
         sids = [texts[row] for row in found.bodies.tolist()]
         known: dict[int, dict[str, int]] = {}
+        if not sids:
+            return known
         order = np.argsort(found.models, kind="stable")
         models, first = np.unique(found.models[order], return_index=True)
         for model, mine in zip(models.tolist(), np.split(order, first[1:]), strict=True):
