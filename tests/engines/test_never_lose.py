@@ -63,12 +63,15 @@ def test_killed_at_random_moments(tmp_path: Path) -> None:
     chance = random.Random(KILLS)
     folder = tmp_path / "killed"
     reached = 0
-    for _ in range(KILLS):
+    for number in range(KILLS):
         with running(RUNNER, folder, 10**9) as process:
             assert process.stdout is not None and process.stderr is not None
             ready = process.stdout.readline().split()
             assert ready[:1] == ["ready"], process.stderr.read()
             assert int(ready[1]) >= reached
+            while number >= KILLS // 2 and not reached and not Checkpoints(folder).paths():
+                assert process.poll() is None
+                time.sleep(0.05)  # a busy machine has not come that far yet
             time.sleep(chance.random() * 0.8)
         checkpoints = Checkpoints(folder, keep=2)
         if checkpoints.paths():
