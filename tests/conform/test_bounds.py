@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 import pytest
 from lxml import etree
 from tests.conform.documents import ASSET, BOX, C, codes, document, kept, mended, parse, physics
+from tests.mapper.documents import body, collada, instance, model, scene
 
 from colladaphy.conform import conform
 from colladaphy.conform.grammar import SimpleType
@@ -93,3 +95,27 @@ def test_too_many_are_refused_at_once_by_a_limit_that_names_itself(where: str) -
     assert codes(findings) == {"repair-too-many-attributes"}
     assert findings[0].severity == "error"
     assert "4096" in findings[0].message
+
+
+def dangling(count: int) -> bytes:
+    """References to nodes and bodies that are not there, among many that are."""
+    nodes = "".join(f'<node id="n{at}"/>' for at in range(5 * count))
+    lost = (instance("b", f"#gone{at}") for at in range(count))
+    bodiless = (instance(f"none{at}", "#n0") for at in range(count))
+    return collada(model(body()), scene(*lost, *bodiless), nodes)
+
+
+def repeated(count: int) -> bytes:
+    """One id a thousand times, and references to it."""
+    same = '<node id="n"/>' * 1000
+    nodes = "".join(f'<node id="n{at}"/>' for at in range(5 * count))
+    return collada(model(body()), scene(*(instance() for _ in range(count))), same + nodes)
+
+
+@pytest.mark.parametrize("make", [dangling, repeated])
+def test_references_of_any_number_take_time_in_proportion(make: Callable[[int], bytes]) -> None:
+    spent = []
+    for count in (500, 4000):
+        tree = etree.ElementTree(etree.fromstring(make(count)))
+        spent.append(min(seconds(tree) for _ in range(2)))
+    assert spent[1] < 24 * spent[0] + 0.2  # eight times as much, and room for the machine
