@@ -71,6 +71,24 @@ def test_what_cannot_be_read(tmp_path: Path) -> None:
         parse(12)  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("part", [5, 1.5, [b"<"], object()])
+def test_a_stream_that_gives_no_bytes(part: object) -> None:
+    class Odd:
+        def read(self, size: int = -1) -> object:
+            return part
+
+    assert refused(Odd()) == "io-unreadable"
+
+
+def test_a_name_that_no_file_can_have() -> None:
+    assert refused("half a pair \ud800.dae") == "io-unreadable"
+
+
+def test_limits_that_are_none() -> None:
+    with pytest.raises(InputError, match=r"colladaphy.Limits\(...\), not as 5"):
+        parse(DATA, 5)  # type: ignore[arg-type]
+
+
 def test_a_failing_disk() -> None:
     class Broken(io.RawIOBase):
         def read(self, size: int = -1) -> bytes:

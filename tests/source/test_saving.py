@@ -172,3 +172,12 @@ def test_what_killed_writers_left_is_swept(tmp_path: Path) -> None:
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(
         ["a.dae", "mine.tmp", *list(ages)[1:3]]
     )
+
+
+@pytest.mark.parametrize("target", [None, 5, b"a.dae", "half a pair \ud800.dae"])
+def test_what_cannot_be_written_to(tmp_path: Path, target: object) -> None:
+    if isinstance(target, str):
+        target = str(tmp_path / target)
+    with pytest.raises(OutputError, match="io-output-failed"):
+        save(b"data", target)  # type: ignore[arg-type]
+    assert list(tmp_path.iterdir()) == []

@@ -16,6 +16,7 @@ from colladaphy.source import rules
 from colladaphy.source.archive import MAGIC, Archive
 from colladaphy.source.limits import Limits
 from colladaphy.source.mending import mend_text
+from colladaphy.source.names import shown_name
 from colladaphy.source.references import (
     ArchiveOrigin,
     FolderOrigin,
@@ -133,6 +134,9 @@ def parse_loaded(loaded: Loaded, *, mend: bool = False) -> Parsed:
 
 def load(source: Source, limits: Limits = _DEFAULTS) -> Loaded:
     """Read a document's bytes, out of its archive where it is one; InputError if that fails."""
+    if not isinstance(limits, Limits):
+        message = f"Limits are given as colladaphy.Limits(...), not as {limits!r:.40}."
+        raise InputError(rules.UNREADABLE.at(message=message, hint="Say which limit is meant."))
     spent = Spent(limits)
     if isinstance(source, bytes | bytearray | memoryview):
         data, file, folder = bytes(source), None, None
@@ -158,7 +162,7 @@ def _from_path(
     source: str | os.PathLike[str] | os.PathLike[bytes], limits: Limits
 ) -> tuple[bytes, str, Path]:
     name = os.fspath(source)
-    shown = os.fsencode(name).decode("utf-8", "backslashreplace")
+    shown = shown_name(name)
     if isinstance(name, str) and name.lstrip().startswith("<"):
         message = "The file name looks like the text of a document."
         raise InputError(
@@ -188,7 +192,7 @@ def _from_path(
 def _from_stream(stream: BinaryIO, limits: Limits) -> tuple[bytes, str | None, Path | None]:
     name = getattr(stream, "name", None)
     file = name if isinstance(name, str) else None
-    shown = os.fsencode(file).decode("utf-8", "backslashreplace") if file else None
+    shown = shown_name(file) if file else None
     try:
         data = read_limited(stream, limits.bytes, shown)
     except InputError:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import stat
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,6 +14,7 @@ from colladaphy.findings import Finding
 from colladaphy.source import rules
 from colladaphy.source.archive import Archive
 from colladaphy.source.limits import Limits
+from colladaphy.source.names import shown_name
 
 __all__ = ["ArchiveOrigin", "FolderOrigin", "Origin", "Resource", "Spent", "read_limited"]
 
@@ -70,7 +70,7 @@ class FolderOrigin:
         if not regular:
             raise InputError(_refused(url, "it is not a plain file"))
         limits = self.spent.limits
-        shown = os.fsencode(path).decode("utf-8", "backslashreplace")
+        shown = shown_name(path)
         try:
             with real.open("rb") as stream:
                 data = read_limited(stream, limits.bytes, shown)
@@ -132,6 +132,9 @@ def read_limited(stream: BinaryIO, limit: int, file: str | None) -> bytes:
         part = stream.read(min(limit + 1 - size, 1 << 24))
         if isinstance(part, str):
             raise InputError(rules.NOT_BINARY.at(file=file))
+        if part is not None and not isinstance(part, bytes | bytearray | memoryview):
+            message = f"The file object gives {part!r:.40} where bytes are needed."
+            raise InputError(rules.UNREADABLE.at(message=message, file=file))
         if not part:
             return parts[0] if len(parts) == 1 else b"".join(parts)
         size += len(part)

@@ -14,6 +14,7 @@ from typing import BinaryIO
 from colladaphy.errors import OutputError
 from colladaphy.findings import Finding
 from colladaphy.source import rules
+from colladaphy.source.names import shown_name
 
 __all__ = ["Target", "save"]
 
@@ -49,7 +50,7 @@ def save(data: bytes, target: Target) -> None:
     if not isinstance(target, str | os.PathLike):
         _to_stream(data, target)
         return
-    shown = os.fsencode(target).decode("utf-8", "backslashreplace")
+    shown = shown_name(target)
     try:
         _to_path(data, Path(os.path.realpath(target)))
     except (OSError, ValueError) as error:
@@ -130,6 +131,10 @@ def _sync_folder(folder: Path) -> None:
 def _to_stream(data: bytes, stream: BinaryIO) -> None:
     name = getattr(stream, "name", None)
     shown = name if isinstance(name, str) else None
+    if not callable(getattr(stream, "write", None)):
+        message = f"Nothing can be written to {stream!r:.40}."
+        hint = "Name a file, or pass a file object that is open in binary mode ('wb')."
+        raise OutputError(rules.OUTPUT_FAILED.at(message=message, hint=hint))
     try:
         view = memoryview(data)
         while view:  # raw streams may take less than they are given
