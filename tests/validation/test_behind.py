@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import random
 import shutil
 import sys
+from copy import deepcopy
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from lxml import etree
-from tests.meaning.test_cases import FAULTS, NEAR, Case
+from tests.meaning.test_cases import BASES, FAULTS, NEAR, Case
 
 import colladaphy
 from colladaphy.conform import conform
@@ -275,6 +278,46 @@ def test_mended_documents_have_no_deviations(corpus_dir: Path) -> None:
         if path.name != "colladatools-simple-arm-hostile.dae":
             tree, _ = conform(etree.parse(path))
             assert list(deviations(tree.getroot(), ())) == [], path.name
+
+
+def one_edit(tree: etree._ElementTree, kind: str, chance: random.Random) -> None:
+    """Make one fault of form, or none."""
+    element = chance.choice(list(tree.iter(etree.Element))[1:])
+    parent, after = element.getparent(), element.getnext()
+    assert parent is not None
+    if kind == "removed":
+        parent.remove(element)
+    elif kind == "swapped" and after is not None:
+        after.addnext(element)
+    elif kind == "doubled":
+        element.addnext(deepcopy(element))
+    elif kind == "renamed":
+        element.tag = f"{element.tag}q"
+    elif kind == "stranger":
+        element.append(etree.Element("{http://www.collada.org/2008/03/COLLADASchema}bogus"))
+    elif kind == "attribute":
+        element.set("bogus", "1")
+    elif kind == "bare":
+        element.attrib.clear()
+    elif kind == "text":
+        element.text = "x y"
+
+
+@pytest.mark.parametrize(
+    "kind",
+    ["removed", "swapped", "doubled", "renamed", "stranger", "attribute", "bare", "text"],
+)
+@some
+@given(st.sampled_from(sorted(BASES)), st.integers(0, 2**32))
+def test_one_fault_of_form_is_one_finding_where_libxml2_sees_it(
+    kind: str, base: str, seed: int
+) -> None:
+    tree = etree.parse(BASES[base])
+    one_edit(tree, kind, random.Random(seed))
+    data = etree.tostring(tree)
+    seen = [finding.line for finding in gate(etree.fromstring(data).getroottree())]
+    told = colladaphy.validate(data)
+    assert [finding.line for finding in told if finding.stage == "schema"] == seen
 
 
 # --- COLLADA 1.4
