@@ -95,9 +95,11 @@ _NEEDED = {"stored": "store", "refused": "refuses"}
 def _refusing(
     load: Callable[[bytes], object], refuses: type[Exception] | tuple[type[Exception], ...]
 ) -> Check:
+    own = refuses if isinstance(refuses, tuple) else (refuses,)
+
     def refused(data: bytes, seen: list[bytes]) -> None:
         seen[:] = [data]
-        with suppress(refuses):
+        with suppress(*own):
             load(data)
 
     broken = broken_documents(errors=True).map(lambda document: document.data)
