@@ -75,10 +75,11 @@ def _run(kind: str, options: argparse.Namespace, minutes: float) -> int:
     with tempfile.TemporaryDirectory(prefix="fuzz-guided-") as folder:
         found = Path(folder, "found")
         found.mkdir()
-        grown = options.grown or Path(folder, "grown")
+        grown = (options.grown or Path(folder, "grown")) / kind
         grown.mkdir(parents=True, exist_ok=True)
         command = [
-            sys.executable, "-m", "tools.fuzz.guided_target", kind, str(grown), str(CORPUS),
+            sys.executable, "-m", "tools.fuzz.guided_target", kind, str(grown),
+            *([str(CORPUS)] if kind == "bytes" else []),
             f"-max_total_time={int(minutes * 60)}", f"-timeout={_SLOW}",
             f"-rss_limit_mb={_MEMORY}", f"-artifact_prefix={found}{os.sep}", "-max_len=20000",
             f"-dict={CORPUS.parent / 'words.dict'}", "-print_final_stats=1", "-verbosity=0",
