@@ -197,7 +197,9 @@ def test_bodies_that_are_lost_are_said_last(cli: Runner, tmp_path: Path) -> None
     source.write_bytes(bodies("1", "0", "2", "0"))
     result = cli("convert", source, tmp_path / "out.dae")
     assert result.code == 0
-    assert result.err.splitlines()[-1].endswith("warning: 2 of 4 bodies cannot be loaded.")
+    *reasons, last = result.err.splitlines()
+    assert last.endswith("warning: 2 of 4 bodies cannot be loaded.")
+    assert [reason.split("'")[1] for reason in reasons] == ["b1", "b3"]
     assert cli("convert", source, "-o", tmp_path / "out.dae", "--strict").code == 1
     source.write_bytes(bodies("1", "2"))
     assert cli("convert", source, "-o", tmp_path / "out.dae", "--strict").err == ""

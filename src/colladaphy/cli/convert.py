@@ -31,6 +31,8 @@ if TYPE_CHECKING:
 
 __all__ = ["command"]
 
+_REASONS = 3
+
 
 @click.command("convert")
 @output_options
@@ -137,9 +139,15 @@ def _say_losses(mended: Mended, job: Job, convention: str, strict: bool) -> int:
     """Say in a last line that bodies were lost, with the exit code for it."""
     if not mended.has_bodies:
         return 0
-    there, lost = mended.bodies(convention)
+    there, reasons = mended.bodies(convention)
+    lost = len(reasons)
     if there and not lost:
         return 0
+    for finding in reasons[:_REASONS]:
+        place = f"{finding.line}: " if finding.line else " "
+        note(f"{job.source}:{place}{finding.message} [{finding.code}]")
+    if lost > _REASONS:
+        note(f"... and {lost - _REASONS} more bodies")
     if not there:
         why = f"none of its {lost} bodies can be loaded" if lost else "no scene instances a body"
         note(f"{job.source}: {'error' if lost else 'warning'}: The World is empty: {why}.")

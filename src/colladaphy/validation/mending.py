@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from lxml import etree
 
 from colladaphy.errors import SchemaError
-from colladaphy.findings import Report
+from colladaphy.findings import Finding, Report
 from colladaphy.gate import gate
 from colladaphy.links.names import local_name
 from colladaphy.source import (
@@ -135,8 +135,8 @@ class Mended:
             self.report.add(ALONE.at(child, message))
         return Mended(self.parsed, tree, self.report, document, alone=True)
 
-    def bodies(self, convention: str = "auto") -> tuple[int, int]:
-        """How many bodies the World of the document has, and how many it should have but lacks."""
+    def bodies(self, convention: str = "auto") -> tuple[int, list[Finding]]:
+        """How many bodies the World of the document has, and a finding for each that it lacks."""
         from colladaphy.validation.statistics import skipped_bodies
 
         document = self.document(convention)
@@ -145,7 +145,7 @@ class Mended:
         # What the World lacked when it was written is told already.
         new = [] if self.alone else document.report.findings[known:]
         lost = skipped_bodies([*self.report, *new])
-        return len(world.bodies), len(lost)
+        return len(world.bodies), lost
 
 
 def mend(
