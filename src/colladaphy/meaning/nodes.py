@@ -153,8 +153,13 @@ def _nested(nodes: Nodes) -> bool:
 
 
 def nowhere(context: Context) -> Iterator[Hit]:
-    """Bodies of scenes in effect whose nodes are in no visual scene that is seen."""
+    """Bodies of scenes in effect whose nodes are in no visual scene that is seen.
+
+    A document without any visual scene is for physics alone.
+    """
     nodes = nodes_of(context)
+    if not nodes.shown:
+        return
     shown, parents = nodes.shown, nodes.parents
     lost = [
         (instance, target)
