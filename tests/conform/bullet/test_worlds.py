@@ -6,6 +6,7 @@ import io
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
 from lxml import etree
 from tests.conform.bullet import bullet_reader
 from tests.conform.bullet.rewritten import State, rewrite
@@ -13,6 +14,7 @@ from tests.conform.bullet.rewritten import State, rewrite
 import colladaphy
 from colladaphy import World
 from colladaphy.conform.bullet import for_bullet
+from colladaphy.testing import worlds
 
 
 @pytest.fixture
@@ -70,6 +72,20 @@ def test_bullet_sees_the_bodies_where_they_are(world: World) -> None:
             assert np.allclose(body.position, other.pose[:3, 3])
             assert body.mass == pytest.approx(other.mass)
     assert len(found.constraints) == len(world.joints)
+
+
+@settings(max_examples=30)
+@given(
+    world=worlds(
+        shapes=["sphere", "box", "plane"], unions=False, joints=False, extreme=False,
+        physical=True, max_bodies=5,
+    )
+)  # fmt: skip
+def test_worlds_of_what_bullet_has_come_back(world: World) -> None:
+    """Any spheres, boxes and planes: kinds, ids, poses, masses and motions."""
+    again = colladaphy.read(export(world), repair=True).load()
+    assert_alike(world, again, 1e-6)
+    assert np.allclose(world.gravity, again.gravity, rtol=1e-9)
 
 
 def test_a_world_comes_back_from_bullet_as_it_was(world: World) -> None:
