@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-from importlib import import_module
 from typing import Any, Literal, get_args
 
 from lxml import etree
@@ -13,6 +11,7 @@ from colladaphy.conform.downgrade import NS14, to_collada_1_4
 from colladaphy.conform.downgrade.rules import INVALID
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Finding
+from colladaphy.gate.schema import schema_1_4
 
 __all__ = ["TARGETS", "Target", "export"]
 
@@ -44,21 +43,10 @@ def _errors(data: bytes) -> list[Finding]:
     root = etree.fromstring(data, etree.XMLParser(resolve_entities=False, huge_tree=True))
     if root.tag != f"{{{NS14}}}COLLADA" or root.get("version") != "1.4.1":
         return [INVALID.at(root, f"The root of the result is {root.tag}.")]
-    schema = _schema()
+    schema = schema_1_4()
     if schema is None or schema.validate(etree.ElementTree(root)):
         return []
     log: Any = schema.error_log  # its stubs do not know that it can be iterated
     return [
         INVALID.at(message=error.message, line=error.line, column=error.column) for error in log
     ]
-
-
-@cache
-def _schema() -> etree.XMLSchema | None:
-    """The 1.4.1 schema that pycollada ships; None where that is not installed."""
-    try:
-        pycollada = import_module("collada.schema")
-    except ImportError:
-        return None
-    schema: etree.XMLSchema = pycollada.ColladaValidator().COLLADA_SCHEMA_1_4_1_INSTANCE
-    return schema

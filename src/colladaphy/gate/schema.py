@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from lxml import etree
 
-__all__ = ["PE", "compiled", "profile_elements", "schema_folder", "wrapped"]
+__all__ = ["PE", "compiled", "profile_elements", "schema_1_4", "schema_folder", "wrapped"]
 
 PE = "urn:colladaphy:pe:1"
 _XS = "{http://www.w3.org/2001/XMLSchema}"
@@ -62,6 +63,17 @@ def wrapped(open_content: str) -> etree.XMLSchema:
     content = etree.SubElement(etree.SubElement(wrapper, f"{_XS}complexType"), f"{_XS}sequence")
     etree.SubElement(content, f"{_XS}element", ref="COLLADA")
     return etree.XMLSchema(root)
+
+
+@cache
+def schema_1_4() -> etree.XMLSchema | None:
+    """The schema of 1.4.1 that pycollada ships; None where that is not installed."""
+    try:
+        pycollada = import_module("collada.schema")
+    except ImportError:
+        return None
+    schema: etree.XMLSchema = pycollada.ColladaValidator().COLLADA_SCHEMA_1_4_1_INSTANCE
+    return schema
 
 
 @cache

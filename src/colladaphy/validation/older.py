@@ -2,26 +2,13 @@
 
 from __future__ import annotations
 
-from functools import cache
-from importlib import import_module
-
 from lxml import etree
 
 from colladaphy.gate.faults import violations
 from colladaphy.gate.messages import Violation
+from colladaphy.gate.schema import schema_1_4
 
-__all__ = ["schema_1_4", "violations_1_4"]
-
-
-@cache
-def schema_1_4() -> etree.XMLSchema | None:
-    """The schema of 1.4.1 that pycollada ships; None where that is not installed."""
-    try:
-        pycollada = import_module("collada.schema")
-    except ImportError:
-        return None
-    schema: etree.XMLSchema = pycollada.ColladaValidator().COLLADA_SCHEMA_1_4_1_INSTANCE
-    return schema
+__all__ = ["violations_1_4"]
 
 
 def violations_1_4(tree: etree._ElementTree) -> list[tuple[etree._Element, Violation]] | None:

@@ -10,6 +10,7 @@ from colladaphy.conform import exporting
 from colladaphy.conform.downgrade import rules
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Rule
+from colladaphy.gate import schema
 
 
 @pytest.mark.parametrize("target", exporting.TARGETS)
@@ -33,8 +34,8 @@ def test_without_pycollada_what_is_known_by_construction_is_checked(monkeypatch:
     def missing(name: str) -> None:
         raise ImportError(name)
 
-    monkeypatch.setattr(exporting, "import_module", missing)
-    exporting._schema.cache_clear()
+    monkeypatch.setattr(schema, "import_module", missing)
+    schema.schema_1_4.cache_clear()
     try:
         tree = etree.ElementTree(etree.fromstring(document("<library_nodes/>")))
         data, _ = exporting.export(tree, "collada-1.4")
@@ -42,7 +43,7 @@ def test_without_pycollada_what_is_known_by_construction_is_checked(monkeypatch:
         with pytest.raises(SchemaError):
             exporting.export(etree.ElementTree(etree.fromstring("<html/>")), "collada-1.4")
     finally:
-        exporting._schema.cache_clear()
+        schema.schema_1_4.cache_clear()
 
 
 def test_another_target() -> None:
