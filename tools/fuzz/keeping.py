@@ -18,7 +18,7 @@ from colladaphy.world.materials import VALUES
 __all__ = ["copied", "keep", "plain", "read", "value_of"]
 
 _JOINT = ("frame1", "frame2", "linear_min", "linear_max", "angular_min", "angular_max",
-          "linear_spring", "angular_spring", "enabled", "interpenetrate", "uid", "sid",
+          "linear_spring", "angular_spring", "motor", "enabled", "interpenetrate", "uid", "sid",
           "name")  # fmt: skip
 
 
@@ -180,7 +180,7 @@ def _world_of(kept: dict[str, Any]) -> World:
         _create(world, body)
     for joint in kept["joints"]:
         first, second = (None if sid is None else world.body(sid) for sid in joint["bodies"])
-        world.attach_joint(first, second, **{name: joint[name] for name in _JOINT})
+        world.attach_joint(first, second, **{name: joint[name] for name in _JOINT if name in joint})
     world.next_body_sid, world.next_joint_sid = kept["next"]
     return world
 
