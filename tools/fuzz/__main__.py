@@ -148,7 +148,7 @@ class Run:
             self._note(found)
 
     def _note(self, found: Round) -> None:
-        self.totals.wall += found.seconds
+        self.totals.wall += found.wall
         new = self.totals.add(found)
         kept = {failure.file for failure in self.totals.failures.values()}
         for failure in found.failures:

@@ -56,6 +56,8 @@ class Round:
     examples: int = 0
     rejected: int = 0
     seconds: float = 0.0
+    """CPU time."""
+    wall: float = 0.0
     codes: Counter[str] = field(default_factory=Counter)
     components: set[Any] = field(default_factory=set)
     documents: int = 0
@@ -138,13 +140,13 @@ def run(
             suppress_health_check=list(HealthCheck), report_multiple_bugs=False,
         )(given(prop.values())(attempt))
     )  # fmt: skip
-    started = time.process_time()
+    started, begun = time.process_time(), time.monotonic()
     with counted(found.codes):
         try:
             test()
         except Exception as error:
             found.failures.append(_failure(prop.name, error, last, folder))
-    found.seconds = time.process_time() - started
+    found.seconds, found.wall = time.process_time() - started, time.monotonic() - begun
     found.components = coverage.reached
     return found
 

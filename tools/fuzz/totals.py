@@ -73,7 +73,7 @@ class Totals:
             f"{sum(each.rejected for each in every):10,}"
             f"{sum(each.seconds for each in every) / 3600:8.2f}"
         )
-        made.append(f"in {self.wall / 3600:.2f} hours of processes that ran side by side")
+        made.append(f"in {self.wall / 3600:.2f} hours of the clock, of all processes together")
         rules = {rule.code for rule in all_rules()}
         seen = rules & self.codes.keys()
         made.append(f"rules that were broken at least once: {len(seen)} of {len(rules)}")
