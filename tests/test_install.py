@@ -68,6 +68,19 @@ def test_the_wheel_holds_schema_and_generated_package(wheel: Path) -> None:
     assert not any(name.startswith(("tests/", "tools/")) for name in names)
 
 
+def test_the_wheel_holds_what_testing_needs(wheel: Path) -> None:
+    with zipfile.ZipFile(wheel) as archive:
+        names = set(archive.namelist())
+        points = next(name for name in names if name.endswith("entry_points.txt"))
+        said = archive.read(points).decode()
+    for kind, pattern in (("cases", "*.toml"), ("bases", "*.dae")):
+        files = sorted((ROOT / "tests" / "meaning" / kind).glob(pattern))
+        assert files
+        for path in files:
+            assert f"colladaphy/testing/breaking/meaning/{kind}/{path.name}" in names
+    assert "[pytest11]\ncolladaphy = colladaphy.pytest_plugin" in said
+
+
 def test_the_sdist_holds_what_the_wheel_is_built_from(
     tmp_path_factory: pytest.TempPathFactory,
 ) -> None:
