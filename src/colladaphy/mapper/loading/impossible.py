@@ -17,7 +17,7 @@ from colladaphy.mapper.loading.tables import Tables
 from colladaphy.mapper.loading.tensors import symmetric_parts
 from colladaphy.mapper.loading.values import BodyValues
 from colladaphy.meaning import physics_rules
-from colladaphy.meaning.moments import faults_of_inertias
+from colladaphy.meaning.moments import are_impossible, faults_of_inertias
 
 __all__ = ["note_impossible"]
 
@@ -55,14 +55,12 @@ def note_impossible(
         tables.resource.note(rule, element, message, home=resource, severity=Severity.WARNING)
 
     rows = np.flatnonzero(values.has_inertia)
-    if len(rows):
-        faults = faults_of_inertias(values.inertia[rows], moves[rows])
-        for place, (rule, message) in sorted(faults.items()):
-            body = int(rows[place])
-            own = int(kept[body])
-            if own < 0 or not (profile.has_inertia[own]
-                               and _is_impossible(profile.inertia[own], moves[body])):  # fmt: skip
-                note(body, instances.has_inertia, rule, message)
+    rows = rows[are_impossible(values.inertia[rows], moves[rows])]
+    rows = rows[~_is_impossible(profile, kept[rows], moves[rows])]
+    for place, (rule, message) in sorted(
+        faults_of_inertias(values.inertia[rows], moves[rows]).items()
+    ):
+        note(int(rows[place]), instances.has_inertia, rule, message)
     zero = values.has_mass & (values.mass == 0.0) & moves & (kept < 0)
     for body in np.flatnonzero(zero).tolist():
         name = tables.bodies.texts("sid")[int(found.bodies[body])] or "?"
@@ -70,10 +68,14 @@ def note_impossible(
         note(body, instances.has_mass, physics_rules.MASS_ZERO, message)
 
 
-def _is_impossible(tensor: Array, moves: bool) -> bool:
-    """Whether a tensor (9,) is no inertia of a body."""
-    whole = symmetric_parts(tensor[None]).reshape(3, 3)
-    if not np.isfinite(whole).all():
-        return True
-    moments = np.linalg.eigvalsh(whole)
-    return bool(faults_of_inertias(moments[None], np.array([moves])))
+def _is_impossible(profile: Parts, kept: Array, moves: Array) -> Array:
+    """Which rows of the profile (n,), -1 for none, have an inertia that no body can have (n,)."""
+    found = np.zeros(len(kept), np.bool_)
+    rows = np.flatnonzero(kept >= 0)
+    rows = rows[profile.has_inertia[kept[rows]]]
+    tensors = symmetric_parts(profile.inertia[kept[rows]]).reshape(-1, 3, 3)
+    finite = np.isfinite(tensors).all(axis=(1, 2))
+    found[rows[~finite]] = True
+    rows = rows[finite]
+    found[rows] = are_impossible(np.linalg.eigvalsh(tensors[finite]), moves[rows])
+    return found
