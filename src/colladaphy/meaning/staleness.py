@@ -315,9 +315,8 @@ def limits(context: Context) -> Iterator[Hit]:
         for part, stated in zip(("min", "max"), limits_of(context, other), strict=True):
             kept, _, values = profile.values(part, 3, name)
             others = profile.values("max" if part == "min" else "min", 3, name)[2]
-            wrong = (
-                (values > others).any(axis=1) if part == "min" else (values < others).any(axis=1)
-            )
+            beyond = values > others if part == "min" else values < others
+            wrong = np.asarray(beyond.any(axis=1))
             for element, holder, value, told in zip(
                 kept.tolist(), profile.holders(kept).tolist(), values, wrong.tolist(), strict=True
             ):
