@@ -20,8 +20,8 @@ from colladaphy.testing.changing.rewriting import REWRITES as REWRITE_CHANGES
 from colladaphy.testing.changing.spelling import respelled
 from colladaphy.world import World, compare
 
-EXACT = ("comments", "extras", "techniques", "numbers", "flags", "libraries-reordered",
-         "libraries-split", "names", "models-unused")  # fmt: skip
+EXACT = ("comments", "comments-within", "instructions", "extras", "techniques", "numbers", "flags",
+         "libraries-reordered", "libraries-split", "names", "models-unused")  # fmt: skip
 """Changes after which not a bit of any pose differs."""
 
 
@@ -95,29 +95,25 @@ def many() -> list[bytes]:
 @pytest.mark.parametrize("kind", REWRITES)
 def test_each_rewrite_changes_the_file_and_not_the_bodies(kind: str) -> None:
     changed = 0
-    for number, document in enumerate(many()):
-        same = equivalents(document, kinds=[kind], most=1, serializations=False)
-        (again,) = drawn_once(same, number)
-        if canonical(again) != canonical(document):
-            changed += 1
-            assert_near(load(document), load(again))
-    assert changed >= 2
+    for document in many():
+        for again in drawn(equivalents(document, kinds=[kind], most=1, serializations=False), 3):
+            if canonical(again) != canonical(document):
+                changed += 1
+                assert_near(load(document), load(again))
+                break
+    assert changed >= 1
 
 
 @pytest.mark.parametrize("kind", EDITS)
 def test_each_edit_changes_the_file(kind: str) -> None:
     changed = 0
-    for number, document in enumerate(many()):
-        (again,) = drawn_once(edits(document, kinds=[kind], most=1), number)
-        changed += canonical(again) != canonical(document)
-        assert colladaphy.validate(again).valid
-    assert changed >= 2 or kind in ("extras-dropped", "comments-dropped", "indented")
-
-
-def drawn_once(strategy: st.SearchStrategy[bytes], number: int) -> list[bytes]:
-    """One example: not the simplest, which often changes nothing."""
-    found = drawn(strategy, 4)
-    return [found[number % len(found)]]
+    for document in many():
+        for again in drawn(edits(document, kinds=[kind], most=1), 3):
+            if canonical(again) != canonical(document):
+                changed += 1
+                assert colladaphy.validate(again).valid
+                break
+    assert changed >= 1 or kind in ("extras-dropped", "comments-dropped")
 
 
 def canonical(document: bytes) -> bytes:

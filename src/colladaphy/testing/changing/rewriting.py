@@ -53,17 +53,24 @@ def _technique(draw: st.DrawFn) -> Element:
     return etree.fromstring(made)
 
 
+def _numeric(root: Element) -> list[Element]:
+    """Elements that hold numbers and nothing else."""
+    return [element for element in common(root, *NUMERIC) if element.text and not len(element)]
+
+
 def _comment(draw: st.DrawFn, element: Element) -> None:
-    """A comment or an instruction before an element, or a comment within its number."""
-    text = draw(_comments)
-    if element.text and not len(element) and local(element) in NUMERIC and draw(st.booleans()):
-        note = etree.Comment(text)
-        note.tail, element.text = element.text, None
-        element.append(note)
-    elif draw(st.booleans()):
-        element.addprevious(etree.ProcessingInstruction("editor", "fold"))
-    else:
-        element.addprevious(etree.Comment(text))
+    element.addprevious(etree.Comment(draw(_comments)))
+
+
+def _instruct(draw: st.DrawFn, element: Element) -> None:
+    element.addprevious(etree.ProcessingInstruction("editor", "fold"))
+
+
+def _comment_within(draw: st.DrawFn, element: Element) -> None:
+    """A comment before a number, in the same element."""
+    note = etree.Comment(draw(_comments))
+    note.tail, element.text = element.text, None
+    element.append(note)
 
 
 def _extra(draw: st.DrawFn, element: Element) -> None:
@@ -204,6 +211,8 @@ REWRITES: dict[str, Change] = {
     "comments": (of(*NUMERIC, "rigid_body", "shape", "node", "instance_rigid_body"), _comment),
     "extras": (of(*_WITH_EXTRA), _extra),
     "techniques": (of(*_WITH_TECHNIQUE), _foreign_technique),
+    "instructions": (of("rigid_body", "shape", "node", "mass"), _instruct),
+    "comments-within": (_numeric, _comment_within),
     "numbers": (whole, _spell),
     "flags": (of("dynamic", "enabled", "interpenetrate", "hollow"), _flags),
     "libraries-reordered": (whole, _reorder),
