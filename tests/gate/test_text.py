@@ -301,6 +301,35 @@ def test_types_nils_ids_and_wildcards(content: str, valid: bool) -> None:
     agreed(data)
 
 
+@pytest.mark.parametrize(
+    ("uri", "accepted"),
+    [
+        ("http://x.example/a-b/c.xsd", True),
+        ("urn:x:y", True),
+        ("ht;p://www.w3.org/2001/XMLSchema-instance", False),
+        ("a b", False),
+        ("%zz", False),
+        ("urn:a|b", False),
+        ("", False),
+        ("http://www.w3.org/2000/xmlns/", False),
+        ("http://www.w3.org/XML/1998/namespace", False),
+    ],
+)
+def test_namespaces_that_may_be_no_uris_are_left_to_trees(uri: str, accepted: bool) -> None:
+    data = document("").replace(b" version=", f' xmlns:a="{uri}" version='.encode(), 1)
+    assert agreed(data) is accepted
+
+
+def test_integers_that_no_program_reads() -> None:
+    for digits, accepted in ((4300, True), (4301, False), (20_000, False)):
+        number = "7" * digits
+        data = document(profile(f'<pe:body uid="{number}"/>'))
+        assert agreed(data) is accepted
+        assert refused(data, Limits()) is not accepted
+        assert not refused(document(nodes(f"<node name='{number}'/>")), Limits())
+        assert not refused(document(nodes(f"<node><scale>1 1 {number}</scale></node>")), Limits())
+
+
 def test_threads_do_not_disturb_each_other() -> None:
     good = document(nodes("".join(f'<node id="n{number}"/>' for number in range(3000))))
     bad = good.replace(b'id="n2999"', b'x="1"')

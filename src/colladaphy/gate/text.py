@@ -20,7 +20,12 @@ __all__ = ["accepts", "is_valid", "is_valid_text"]
 
 # Whatever could be the attribute `id`, in a comment or a text too.
 _ID = re.compile(rb"id(?<=[ \t\r\n]id)[ \t\r\n]*=[ \t\r\n]*[\"'][ \t\r\n]*([^\"' \t\r\n]*)")
-_NAMESPACE_WITH_REFERENCE = re.compile(rb"xmlns[^<>&\"']*[\"'][^<>\"']*&")
+_DECLARED = re.compile(rb"xmlns(?::[^\s=<>\"'&]*)?[ \t\r\n]*=[ \t\r\n]*(?:\"([^\"]*)\"|'([^']*)')")
+# What is certain to be the name of a namespace; parsers refuse what is no URI, and XML's own.
+_NAMESPACE = re.compile(
+    rb"urn:[A-Za-z0-9][A-Za-z0-9-]*:[A-Za-z0-9:._-]+"
+    rb"|https?://(?!www\.w3\.org/(?:2000/xmlns|XML/))[A-Za-z0-9.-]+(?:/[A-Za-z0-9._~-]*)*"
+)
 _MATHML = b"http://www.w3.org/1998/Math/MathML"
 _SMALL = 1 << 16
 """Documents whose trees cost less than the second schema."""
@@ -71,7 +76,8 @@ def is_valid_text(data: bytes) -> bool:
 
 def _schema_for(data: bytes) -> etree.XMLSchema | None:
     """The schema that tells of unknown elements of the pe profile, too, if it is there."""
-    if b"&" in data and _NAMESPACE_WITH_REFERENCE.search(data) is not None:
+    declared = {double or single for double, single in _DECLARED.findall(data)}
+    if not all(map(_NAMESPACE.fullmatch, declared)):
         return None
     if PE.encode() not in data:
         return wrapped("lax")
