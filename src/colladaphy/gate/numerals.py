@@ -1,8 +1,8 @@
 """Numbers that libxml2 takes for valid, and no program can read.
 
 Their exponent has no digits, as in ``1e`` or ``2.5E+``, or they are integers of thousands of
-digits. They are rare, and looking for them costs as much as parsing, so that the gate leaves them to
-whoever reads the number; a validation must find them all.
+digits. They are rare, and looking for them costs as much as parsing, so that the gate leaves them
+to whoever reads the number; a validation must find them all.
 """
 
 from __future__ import annotations
