@@ -163,7 +163,7 @@ def _run(context: Context, twin: etree._ElementTree, version: str, convention: s
     steps = [*_SPELLING, *(_UPGRADE if version.startswith("1.4") else ()), *_NAMES]
     for step in steps:
         step(context)
-    data = etree.tostring(twin)
+    data = etree.tostring(twin, encoding="UTF-8")
     form_is_right = is_valid_text(data) and not may_lack_digits(data)
     for step in () if form_is_right else _FORM:
         step(context)

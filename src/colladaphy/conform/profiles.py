@@ -37,7 +37,7 @@ def mend_profiles(context: Context, *, valid: bool) -> None:
     for top in () if valid else tops:
         _mend_numbers(context, top)
     known = all(top.tag in known_tops() for top in tops)
-    if known and (valid or not tops or is_valid_text(etree.tostring(context.root))):
+    if known and (valid or not tops or _is_valid(context.root)):
         return
     for top in tops:
         fault = _fault(top)
@@ -64,9 +64,13 @@ def _mend_numbers(context: Context, top: etree._Element) -> None:
             element.text = mended
 
 
+def _is_valid(root: etree._Element) -> bool:
+    return is_valid_text(etree.tostring(root, encoding="UTF-8"))
+
+
 def _fault(top: etree._Element) -> str | None:
     """What is wrong with an element of the profile; None where nothing is."""
-    alone = etree.fromstring(etree.tostring(top, with_tail=False))
+    alone = etree.fromstring(etree.tostring(top, with_tail=False, encoding="UTF-8"))
     schema = _schema()
     if schema.validate(etree.ElementTree(alone)):
         return None

@@ -211,7 +211,7 @@ def _geometry_index(shape: etree._Element) -> int:
 
 
 def _copy(element: etree._Element) -> etree._Element:
-    return etree.fromstring(etree.tostring(element, with_tail=False))
+    return etree.fromstring(etree.tostring(element, with_tail=False, encoding="UTF-8"))
 
 
 def drop_empty_shapes(context: Context) -> None:

@@ -48,7 +48,8 @@ def bad_numbers(
 ) -> list[Finding]:
     """A finding for every number that lacks the digits of its exponent."""
     report = Report(file)
-    report.extend(incomplete_numbers(tree, etree.tostring(tree) if data is None else data))
+    data = etree.tostring(tree, encoding="UTF-8") if data is None else data
+    report.extend(incomplete_numbers(tree, data))
     return report.findings
 
 

@@ -108,7 +108,9 @@ class Resource:
         if not self._is_thesis(made):
             return made
         self._shown = in_our_spelling(self.tree)
-        return made if self._shown is None else Columns.of(etree.tostring(self._shown))
+        if self._shown is None:
+            return made
+        return Columns.of(etree.tostring(self._shown, encoding="UTF-8"))
 
     def _bytes(self) -> bytes:
         return etree.tostring(self.tree, encoding="UTF-8") if self.data is None else self.data

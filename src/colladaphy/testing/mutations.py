@@ -83,7 +83,7 @@ def drop_element(draw: st.DrawFn, root: etree._Element) -> None:
 
 def repeat_element(draw: st.DrawFn, root: etree._Element) -> None:
     if (element := _any_child(draw, root)) is not None:
-        copy = etree.fromstring(etree.tostring(element, with_tail=False))
+        copy = etree.fromstring(etree.tostring(element, with_tail=False, encoding="UTF-8"))
         element.addnext(copy)
 
 
