@@ -85,6 +85,14 @@ DOCUMENT = """<?xml version="1.0" encoding="utf-8"?>
 """
 
 
+LARGE_NODES = (
+    b'<COLLADA xmlns="http://www.collada.org/2008/03/COLLADASchema" version="1.5.0"><asset>'
+    b"<created>2010-01-01T00:00:00Z</created><modified>2010-01-01T00:00:00Z</modified></asset>"
+    b"<library_nodes>",
+    b"</library_nodes></COLLADA>",
+)
+
+
 def edited(*edits: tuple[str, str]) -> bytes:
     text = DOCUMENT
     for old, new in edits:
@@ -433,3 +441,18 @@ def test_valid_documents_are_checked_without_what_mends_others() -> None:
     )
     out = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert out.stdout.split() == ["0", "False"]
+
+
+def test_of_large_documents_faults_of_form_are_told_first(monkeypatch: pytest.MonkeyPatch) -> None:
+    start, end = LARGE_NODES
+    data = start + b'<node id="a"><instance_node url="#none"/><wrong/></node>' + end
+    told = {finding.code for finding in colladaphy.validate(data)}
+    assert {"schema-unexpected-element", "link-missing"} <= told
+    monkeypatch.setattr("colladaphy.validation.behind.LARGE", len(data))
+    findings = list(colladaphy.validate(data))
+    assert [finding.code for finding in findings] == ["schema-large", "schema-unexpected-element"]
+    assert findings[1].line == 1
+    monkeypatch.setattr("colladaphy.validation.stages.LARGE", 0)
+    valid = data.replace(b"<wrong/>", b"")
+    missing = next(f for f in colladaphy.validate(valid) if f.code == "link-missing")
+    assert missing.repair is None

@@ -113,6 +113,14 @@ OTHER = Rule(
     section="COLLADA 1.5 §Schema concepts",
     why="Strict readers refuse the document.",
 )
+LARGE = Rule(
+    "schema-large",
+    Severity.INFO,
+    "The document is large: what stands behind its faults of form was not looked at.",
+    "Mend them ('colladaphy repair IN OUT'), and check the result.",
+    "colladaphy docs/validate.md",
+    "A copy of it would have to be mended first, which takes minutes.",
+)
 
 RULES = (
     VERSION_1_4,
@@ -128,4 +136,5 @@ RULES = (
     DUPLICATE_ID,
     BROKEN_KEY,
     OTHER,
+    LARGE,
 )

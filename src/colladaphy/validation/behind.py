@@ -25,7 +25,7 @@ from colladaphy.source import COLLADA_1_4, COLLADA_1_5
 from colladaphy.validation.copies import Copy
 from colladaphy.validation.mendable import with_repairs
 from colladaphy.validation.older import violations_1_4
-from colladaphy.validation.options import Options
+from colladaphy.validation.options import LARGE, Options
 from colladaphy.validation.schema_stage import Found, schema_hits, with_schema_repairs
 from colladaphy.validation.touched import SEPARATORS, Touched, touched
 
@@ -71,8 +71,11 @@ class Came:
 def check_behind(came: Came, first: Found | None, options: Options) -> list[Finding]:
     """Everything that is wrong with a document that is not valid COLLADA 1.5.
 
-    `first` is what libxml2 says of a document of 1.5; None for another version.
+    `first` is what libxml2 says of a document of 1.5; None for another version. Of a large one no
+    copy is mended.
     """
+    if first and len(came.data) >= LARGE:
+        return came.told([*_of_form(came, first), Hit(rules.LARGE, 0, rules.LARGE.summary)])
     whole = Copy.of(came.tree)
     current = whole
     hits: list[Hit] = []
@@ -118,6 +121,20 @@ def check_meaning(came: Came, resource: Resource, hits: list[Hit | Finding]) -> 
     # Where the profile is spelled otherwise, the rules have seen a copy with other elements.
     shown = whole.in_our_spelling() if resource.has_other_spelling else whole
     return came.told([*others, *with_repairs(_translated(hits, shown), whole)])
+
+
+def _of_form(came: Came, first: Found) -> list[Hit]:
+    """What libxml2 says, for itself: for many elements, to look for more takes long."""
+    wanted = {element for element, _ in first}
+    numbers = {
+        element: number
+        for number, element in enumerate(came.tree.iter(etree.Element))
+        if element in wanted
+    }
+    return [
+        Hit(said.rule, numbers[element], said.message, (), said.attribute)
+        for element, said in first
+    ]
 
 
 def _translated(hits: Iterable[Hit | Finding], copy: Copy) -> list[Hit]:

@@ -6,7 +6,11 @@ from dataclasses import dataclass
 
 from colladaphy.findings import Severity
 
-__all__ = ["Options"]
+__all__ = ["LARGE", "Options"]
+
+LARGE = 1 << 23
+"""Bytes of documents of which no copy is mended, neither to look at what is behind their faults
+of form, nor to tell which repair mends a finding: that takes many times as long as the check."""
 
 
 @dataclass(frozen=True, slots=True)
