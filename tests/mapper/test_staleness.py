@@ -59,7 +59,8 @@ def a_world() -> World:
 def load(data: bytes, prefer: str = "newer") -> tuple[World, list[str]]:
     document = colladaphy.read(data)
     world = document.load(prefer=prefer)
-    return world, [finding.message for finding in document.report if finding.code == "profile-old-value"]
+    told = [each.message for each in document.report if each.code == "profile-old-value"]
+    return world, told
 
 
 def test_six_digits_are_no_edit() -> None:

@@ -350,7 +350,8 @@ class Document:
             number, at = number[there], at[there]
             if len(there) == 0:
                 return there, Ranges(index.words, there, there)
-        quote = index.first_quote[at] + number * np.int32(2)
+        quote: Array = index.first_quote[at]
+        quote += 2 * number.astype(quote.dtype)
         places = index.quote_places
         return there, Ranges(index.words, places[quote] + 1, places[quote + 1])
 

@@ -85,7 +85,8 @@ def find_bodies(tables: Tables, expansion: Expansion) -> FoundBodies:
         element = home.element(int(origins[place]))
         errors[place] = DocumentError(link_rules.MISSING.at(element, message, file=home.file))
     good = np.flatnonzero(found >= 0)
-    targets = [target.strip() for target in _chosen(instances.texts("target", once=True), rows[good])]
+    wanted = instances.texts("target", once=True)
+    targets = [target.strip() for target in _chosen(wanted, rows[good])]
     given = np.array([bool(target) for target in targets], np.bool_)
     nodes = np.full(len(good), -1, np.int64)
     mine = np.flatnonzero(given)
