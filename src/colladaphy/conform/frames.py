@@ -31,8 +31,11 @@ Matrix = NDArray[np.float64]
 
 
 def floats_of(element: etree._Element | None) -> list[float]:
-    """The numbers of an element's text; XML's INF and NaN are Python's too."""
-    return [] if element is None else [float(word) for word in (element.text or "").split()]
+    """The numbers of an element's text, around comments; XML's INF and NaN are Python's too."""
+    if element is None:
+        return []
+    text = (element.text or "") + "".join(child.tail or "" for child in element)
+    return [float(word) for word in text.split()]
 
 
 def translation(values: Sequence[float]) -> Matrix:
