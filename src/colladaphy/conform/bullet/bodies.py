@@ -78,7 +78,7 @@ def _insert_in_order(common: etree._Element, child: etree._Element) -> None:
     own = rank[local(child)]
     position = 0
     for index, other in enumerate(common):
-        if rank.get(local(other), -1) <= own:
+        if isinstance(other.tag, str) and rank.get(local(other), -1) <= own:  # no comment
             position = index + 1
     common.insert(position, child)
 
