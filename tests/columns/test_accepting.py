@@ -147,6 +147,15 @@ def test_mutants(data: bytes) -> None:
     agreed(data)
 
 
+@pytest.mark.parametrize("spelling", ["x{}", "xmlns:x{}"])
+def test_very_many_names_are_left_to_the_gate(spelling: str) -> None:
+    content = "".join(f'<node {spelling.format(n)}="urn:x:{n}"/>' for n in range(31_000))
+    data = cameras().replace(b"<library_cameras>", f"<library_nodes>{content}"
+                             "</library_nodes><library_cameras>".encode())  # fmt: skip
+    assert thinning.thinned(data) is None
+    assert judge(data).accepted is spelling.startswith("xmlns")
+
+
 def test_contents_that_neighbours_do_not_tell() -> None:
     accepted = [agreed(data) for data in with_lenses_added()]
     assert 0 < sum(accepted) < len(accepted)

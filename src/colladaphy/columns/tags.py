@@ -23,6 +23,8 @@ _XMLNS: Final = int.from_bytes(b"xmlns", "little")
 _INSTANCE: Final = b"XMLSchema-instance"
 _MOST_ATTRIBUTES: Final = 64
 """Of an element; each takes a round."""
+_MOST_KINDS: Final = 30_000
+"""Of names and start tags: two such numbers are one of 32 bits."""
 _MOST: Final = 1 << 22
 """Combinations up to which a table of all is quicker than sorting."""
 
@@ -91,6 +93,8 @@ def tags_of(index: Index) -> Tags:
     if int(count.max()) > _MOST_ATTRIBUTES:
         raise NotPlain("very many attributes")
     names, codes = _attributes(index)
+    if max(len(names.texts), len(first)) > _MOST_KINDS:
+        raise NotPlain("very many different names")
     begin = np.cumsum(count) - count
     mine = every[index.attributed]
     todo = np.arange(len(count))
@@ -104,6 +108,8 @@ def tags_of(index: Index) -> Tags:
         base = len(spellings)
         old, added = keys[where] // width, keys[where] % width
         spellings += [(*spellings[o], int(a)) for o, a in zip(old, added, strict=True)]
+        if len(spellings) > _MOST_KINDS:
+            raise NotPlain("very many different start tags")
         mine[todo] = numbers + base
     every[index.attributed] = mine
     every, first = compressed(every, len(spellings))

@@ -131,7 +131,6 @@ def _cut(data: bytes, index: Index, kept: Array) -> bytes:
         rows = order[cuts[depth] : cuts[depth + 1]]
         whole[parent[rows[whole[rows]]]] = True
     # Those that may go, of each depth; of those within them nothing is asked.
-    ends = np.zeros(len(index), np.int64)
     gone: list[tuple[Array, Array]] = []
     for depth in range(1, len(cuts) - 1):
         rows = order[cuts[depth] : cuts[depth + 1]]
@@ -145,7 +144,6 @@ def _cut(data: bytes, index: Index, kept: Array) -> bytes:
         may &= (codes[1:-1] == codes[:-2]) & (codes[1:-1] == codes[2:])
         may &= whole[around[1:-1]]
         gone.append((index.start[middle[may]] - 1, index.start[rows[2:][may]] - 1))
-    del ends
     if not gone:
         return data
     begins = np.concatenate([begin for begin, _ in gone])
