@@ -29,8 +29,8 @@ def test_how_many():
 
 def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     (folder / "test_some.py").write_text(TEST)
-    command = [sys.executable, "-m", "pytest", "-q", "-s", "-p", "colladaphy.pytest_plugin",
-               "-p", "no:cacheprovider", "--rootdir", str(folder), "test_some.py"]  # fmt: skip
+    command = [sys.executable, "-m", "pytest", "-q", "-s", "-p", "no:cacheprovider",
+               "--rootdir", str(folder), "test_some.py"]  # fmt: skip
     return subprocess.run(
         [*command, *arguments], cwd=folder, capture_output=True, text=True, check=False
     )

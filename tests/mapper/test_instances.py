@@ -294,7 +294,7 @@ def test_nodes_in_a_circle_are_refused() -> None:
 def test_exponential_nesting_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     from colladaphy.mapper.loading import instances as module
 
-    monkeypatch.setattr(module, "_MOST_INSTANCES", 1000)
+    monkeypatch.setattr(module, "MOST_INSTANCES", 1000)
     twice = "".join(
         model(*[f'<instance_physics_model url="#m{k + 1}"/>'] * 2, id=f"m{k}") for k in range(12)
     )

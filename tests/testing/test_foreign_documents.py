@@ -15,7 +15,7 @@ from colladaphy.world import World, rotations
 
 @pytest.fixture(scope="module")
 def many() -> list[ForeignDocument]:
-    return drawn(foreign_documents(), 150)
+    return drawn(foreign_documents(), 300)
 
 
 def test_every_producer_occurs(many: list[ForeignDocument]) -> None:

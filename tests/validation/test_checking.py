@@ -75,6 +75,8 @@ def test_stopped_by_hand(tmp_path: Path) -> None:
     process = subprocess.Popen(
         [sys.executable, "-m", "colladaphy", "validate", ".", "-j", "2", "--format", "concise"],
         cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
+        # Where the tests run in the background, the signal may be ignored.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler),
     )  # fmt: skip
     assert process.stdout is not None
     assert process.stdout.readline().startswith(b"10.dae:3:")  # so all processes have begun

@@ -112,7 +112,7 @@ ELSEWHERE = {
     "io-missing", "io-folder", "io-unreadable", "io-not-binary",
     # Of references, which tests/meaning has cases of, and of writing.
     "io-reference-missing", "io-reference-refused",
-    "io-companion-taken", "io-companion-left", "io-output-failed",
+    "io-companion-taken", "io-companion-left", "io-companion-merged", "io-output-failed",
     # Of repair and of other packages.
     "repair-encoding", "repair-undeclared-prefix", "config-extension-broken",
     # For what libxml2 may say beyond what COLLADA's schema leads to today.

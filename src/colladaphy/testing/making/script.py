@@ -59,6 +59,8 @@ class Script:
         key = _key(value)
         if key is not None and key in self._names:
             return self._names[key]
+        if isinstance(value, Mesh):
+            return f"world.meshes[{value.id}]"
         return repr(value.name) if isinstance(value, Material) else repr(value)
 
     def __repr__(self) -> str:
