@@ -14,12 +14,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from lxml import etree
 from tests.thesis.listings import listing_3, listing_4, listing_5
+from tests.world.changing import change
 
 import colladaphy
 from colladaphy.document import Document
 from colladaphy.errors import DocumentError
 from colladaphy.testing import worlds
-from colladaphy.world import BodyColumns, EngineState, Kind, World, compare
+from colladaphy.world import BodyColumns, Kind, World, compare
 from colladaphy.world.materials import VALUES
 
 COLLADA = "http://www.collada.org/2008/03/COLLADASchema"
@@ -114,24 +115,7 @@ def test_any_world_becomes_any_other_of_its_bodies(world: World, random: Any) ->
     """Poses, velocities, forces, clock, engine state; bodies and joints that go."""
     document = stored(world)
     changed: World = document.load()
-    for moved in changed.bodies:
-        if random.random() < 0.5:
-            moved.position = [random.uniform(-9, 9) for _ in range(3)]
-        if random.random() < 0.5:
-            moved.rotate(random.random(), random.random(), random.random())
-        if random.random() < 0.5:
-            moved.linear_velocity = [random.uniform(-9, 9) for _ in range(3)]
-            moved.angular_velocity = [random.uniform(-9, 9) for _ in range(3)]
-        if random.random() < 0.3:
-            moved.force, moved.sleeping = (1.0, 2.0, random.random()), True
-        if random.random() < 0.2:
-            moved.fixed = not moved.fixed
-        if random.random() < 0.2:
-            changed.destroy(moved)
-    if len(changed.joints) and random.random() < 0.3:
-        changed.destroy_joint(changed.joints[0])
-    changed.time, changed.step_count = random.random(), 7
-    changed.engine_state = EngineState("one", "2", random.randbytes(9))
+    change(changed, random)
     document.update(changed)
     reads_back(document, changed)
 

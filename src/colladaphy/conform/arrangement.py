@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 from lxml import etree
 
-from colladaphy.conform.grammar import Declaration, Group
+from colladaphy.conform.grammar import Declaration, Group, required
 
 __all__ = ["Arrangement", "arrange"]
 
@@ -113,7 +113,7 @@ class _Work:
 
     def _cost(self, branch: Declaration | Group) -> tuple[int, int, int]:
         """Branches that lack least, then that hold most, then whose first child comes first."""
-        lacking = sum(1 for name in _required(branch) if not self._left(name))
+        lacking = sum(1 for name in required(branch) if not self._left(name))
         held = {inner.name for inner in _declarations(branch) if self._left(inner.name)}
         return lacking, -len(held), min(map(self._next, held), default=0)
 
@@ -135,14 +135,3 @@ def _may_be_empty(part: Declaration | Group) -> bool:
         return False
     each = [_may_be_empty(inner) for inner in part.parts]
     return any(each) if part.kind == "choice" else all(each)
-
-
-def _required(part: Declaration | Group) -> set[str]:
-    """The names that a part cannot be without."""
-    if not part.low:
-        return set()
-    if isinstance(part, Declaration):
-        return {part.name}
-    if part.kind == "choice":
-        return _required(part.parts[0]) if len(part.parts) == 1 else set()
-    return {name for inner in part.parts for name in _required(inner)}

@@ -26,6 +26,7 @@ __all__ = [
     "SimpleType",
     "all_types",
     "grammar",
+    "required",
     "root_declaration",
     "stated_type",
 ]
@@ -365,3 +366,14 @@ def stated_type(
 def root_declaration() -> Declaration:
     """The declaration of the document element."""
     return Declaration("COLLADA", grammar()["COLLADA"], None, 1, 1)
+
+
+def required(part: Declaration | Group) -> set[str]:
+    """The names that a part cannot be without."""
+    if not part.low:
+        return set()
+    if isinstance(part, Declaration):
+        return {part.name}
+    if part.kind == "choice":
+        return required(part.parts[0]) if len(part.parts) == 1 else set()
+    return {name for inner in part.parts for name in required(inner)}

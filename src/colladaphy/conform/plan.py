@@ -6,7 +6,7 @@ from lxml import etree
 
 from colladaphy.conform.assumptions import assumed_element
 from colladaphy.conform.context import Context, local
-from colladaphy.conform.grammar import Declaration, Group
+from colladaphy.conform.grammar import Declaration, Group, required
 
 __all__ = ["Plan", "Pool", "set_children"]
 
@@ -75,7 +75,7 @@ class Plan:
         """The branch of a choice that needs least and holds most of what is there."""
 
         def cost(branch: Declaration | Group) -> tuple[int, int]:
-            needed = _required(branch)
+            needed = required(branch)
             lacking = sum(1 for name in needed if not pool.get(name))
             inner = [branch] if isinstance(branch, Declaration) else branch.declarations()
             return lacking, -len({item.name for item in inner if pool.get(item.name)})
@@ -87,16 +87,6 @@ class Plan:
 def _present(part: Declaration | Group, pool: Pool) -> bool:
     names = [part] if isinstance(part, Declaration) else part.declarations()
     return any(pool.get(declaration.name) for declaration in names)
-
-
-def _required(part: Declaration | Group) -> set[str]:
-    if not part.low:
-        return set()
-    if isinstance(part, Declaration):
-        return {part.name}
-    if part.kind == "choice":
-        return _required(part.parts[0]) if len(part.parts) == 1 else set()
-    return {name for inner in part.parts for name in _required(inner)}
 
 
 def set_children(parent: etree._Element, order: list[etree._Element]) -> None:

@@ -7,6 +7,7 @@ from random import Random
 
 import numpy as np
 from hypothesis import strategies as st
+from tests.world.changing import change
 from tests.world.rebuilding import rebuilt
 
 import colladaphy
@@ -16,7 +17,6 @@ from colladaphy.errors import EngineError
 from colladaphy.findings import Severity
 from colladaphy.source import pack
 from colladaphy.testing import worlds
-from colladaphy.world import EngineState
 from tools.fuzz.registry import note, of
 
 __all__: list[str] = []
@@ -102,24 +102,7 @@ def world_updated(world: World, seed: int) -> None:
     """A World that changed is written back into its document, to the last bit."""
     document, random = stored(world), Random(seed)
     changed = document.load()
-    for moved in changed.bodies:
-        if random.random() < 0.5:
-            moved.position = [random.uniform(-9, 9) for _ in range(3)]
-        if random.random() < 0.5:
-            moved.rotate(random.random(), random.random(), random.random())
-        if random.random() < 0.5:
-            moved.linear_velocity = [random.uniform(-9, 9) for _ in range(3)]
-            moved.angular_velocity = [random.uniform(-9, 9) for _ in range(3)]
-        if random.random() < 0.3:
-            moved.force, moved.sleeping = (1.0, 2.0, random.random()), True
-        if random.random() < 0.2:
-            moved.fixed = not moved.fixed
-        if random.random() < 0.2:
-            changed.destroy(moved)
-    if len(changed.joints) and random.random() < 0.3:
-        changed.destroy_joint(changed.joints[0])
-    changed.time, changed.step_count = random.random(), 7
-    changed.engine_state = EngineState("one", "2", random.randbytes(9))
+    change(changed, random)
     document.update(changed)
     reads_back(document, changed)
 
