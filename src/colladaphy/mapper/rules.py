@@ -150,17 +150,33 @@ JOINT_FOLLOWS = Rule(
     "kinematics-joint-follows",
     _WARNING,
     "Formulas make axes follow other axes, which a World cannot express.",
-    "The axes move freely within their limits.",
+    "The axes begin where linear formulas put them, and move freely within their limits.",
     "COLLADA 1.5 §formula",
     why="Grippers and parallel arms move otherwise than they should.",
 )
 PAIRS = Rule(
     "kinematics-pairs-collide",
     _WARNING,
-    "The file lets pairs of links pass through each other, which collide in a World.",
-    "A joint with all axes free and interpenetrate true lets two bodies pass, too.",
+    "The file lets pairs of links pass through each other that cannot be found: they collide.",
+    "Correct the paths, or add a rigid_constraint with all axes free and interpenetrate true.",
     "OpenRAVE's extra of the type collision",
     why="Links that overlap by design push each other apart.",
+)
+PAIRS_PASS = Rule(
+    "kinematics-pairs-pass",
+    _INFO,
+    "The file lets pairs of links pass through each other: joints with all axes free do it.",
+    None,
+    "OpenRAVE's extra of the type collision",
+    why="A World's joints are more than those of the robot.",
+)
+JOINT_BEYOND = Rule(
+    "kinematics-joint-beyond",
+    _WARNING,
+    "A joint stands beyond its limits, which are widened to where it stands.",
+    "Write the robot in a pose that its limits allow.",
+    "COLLADA 1.5 §axis_info",
+    why="At the first step the joint would throw its links back within the limits.",
 )
 JOINT_DOUBLED = Rule(
     "kinematics-joint-doubled",
@@ -263,6 +279,8 @@ RULES = (
     JOINT_UNMAPPED,
     JOINT_FOLLOWS,
     PAIRS,
+    PAIRS_PASS,
+    JOINT_BEYOND,
     JOINT_DOUBLED,
     JOINT_FRAMES,
     DENSITY_ASSUMED,

@@ -250,11 +250,13 @@ def _world(world: World, findings: list[Finding]) -> dict[str, Any]:
     skipped = skipped_bodies(findings)
     unlinked = [finding for finding in findings if finding.code in _UNLINKED]
     positions, solid = world.positions, world.kinds != int(Kind.PLANE)
+    with np.errstate(over="ignore"):  # told as infinite
+        mass = float(world.masses.sum())
     return {
         "unit": {"name": world.unit_name, "meter": world.unit_meter},
         "up_axis": world.up_axis,
         "gravity": world.gravity.tolist(),
-        "mass": float(world.masses.sum()),
+        "mass": mass,
         "reach": [positions[solid].min(axis=0).tolist(), positions[solid].max(axis=0).tolist()]
         if solid.any()
         else None,

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from tests.mapper.kinematics.robots import Arm, Segment, document, pose_matrix
 
 import colladaphy
+from colladaphy.engines import create_engine
 from colladaphy.world import JointKind, World, rotations
 
 _lengths = st.floats(-2, 2).map(lambda value: round(value, 3))
@@ -193,20 +194,48 @@ def test_formulas_are_said_not_to_be_kept() -> None:
     assert (len(world.joints), codes) == (2, ["kinematics-joint-follows"])
 
 
-def test_pairs_that_are_not_to_collide_are_told() -> None:
-    pair = '<ignore_link_pair link0="km/base" link1="km/l1"/>'
-    extra = f'<extra type="collision"><technique profile="OpenRAVE">{pair * 2}</technique></extra>'
-    data = document(Arm([Segment(), Segment()]))
+def _with_pairs(pairs: str) -> tuple[World, list[Any]]:
+    """Three links on a base that overlap, and whose neighbours but one are on another line."""
+    extra = f'<extra type="collision"><technique profile="OpenRAVE">{pairs}</technique></extra>'
+    data = document(Arm([Segment(at=at) for at in ((0.1, 0, 0), (-0.02, 0.1, 0), (9, 0, 0))]))
     read = colladaphy.read(
         data.replace(b"</kinematics_model>", f"{extra}</kinematics_model>".encode())
     )
     world = read.load()
-    assert len(world.joints) == 2
-    (finding,) = [found for found in read.report if found.code.startswith("kinematics")]
-    assert finding.code == "kinematics-pairs-collide" and finding.line
-    assert finding.message.startswith("2 pairs of links")
-    # Neighbours never collide.
+    return world, [found for found in read.report if found.code.startswith("kinematics")]
+
+
+def test_pairs_that_are_not_to_collide_pass_by_joints_that_hold_nothing() -> None:
+    pair = '<ignore_link_pair link0="km/base" link1="km/l1"/>'
+    neighbours = '<ignore_link_pair link0="km/l0" link1="km/l1"/>'
+    world, (finding,) = _with_pairs(pair * 2 + neighbours)
+    assert finding.code == "kinematics-pairs-pass"
+    assert finding.line
+    assert finding.message.startswith("1 pairs of links")
     assert all(joint.interpenetrate for joint in world.joints)
+    free = world.joints[3]
+    assert (len(world.joints), free.kind) == (4, JointKind.GENERAL)
+    assert {free.body1, free.body2} == {world.bodies[0], world.bodies[2]}
+    assert np.isinf([free.linear_min, free.linear_max, free.angular_min, free.angular_max]).all()
+
+
+@pytest.mark.parametrize("pairs", ["", '<ignore_link_pair link0="base" link1="link 1"/>'])
+def test_links_that_overlap_and_may_pass_stay_at_rest(pairs: str) -> None:
+    pytest.importorskip("mujoco")
+    world, _ = _with_pairs(pairs)
+    world.gravity, world.time_step = (0, 0, 0), 0.002
+    engine = create_engine("mujoco")
+    before = world.positions.copy()
+    engine.load(world)
+    engine.step(200)
+    engine.store(world)
+    assert (np.abs(world.positions - before).max() < 1e-9) == bool(pairs)
+
+
+def test_pairs_of_links_that_are_not_there_are_told() -> None:
+    world, (finding,) = _with_pairs('<ignore_link_pair link0="km/base" link1="km/none"/>')
+    assert (len(world.joints), finding.code) == (3, "kinematics-pairs-collide")
+    assert finding.line
 
 
 def test_models_that_no_scene_instances_make_no_joints_and_that_is_said() -> None:
@@ -344,3 +373,142 @@ def test_a_model_that_is_instanced_twice_makes_two_robots() -> None:
         angles.append(math.degrees(math.atan2(apart[1, 0], apart[0, 0])))
     assert np.allclose(places, [0, 9], atol=1e-12)
     assert np.allclose(angles, [10, -20], atol=1e-9)
+
+
+_MATH = "http://www.w3.org/1998/Math/MathML"
+_LINEAR = (
+    '<apply><plus/><apply><times/><cn>2</cn><csymbol encoding="COLLADA">km/j0/axis0</csymbol>'
+    "</apply><cn>5</cn></apply>"
+)
+
+
+def _formula(math: str, target: str = "km/j1/a1", more: str = "") -> str:
+    return (
+        f'<formula sid="f">{more}<target><param>{target}</param></target><technique_common>'
+        f'<math xmlns="{_MATH}">{math}</math></technique_common></formula>'
+    )
+
+
+def _two_axes() -> Arm:
+    joint = _axis("revolute", "1 0 0") + _axis("revolute", "0 1 0").replace("axis0", "a1")
+    return Arm([Segment(value=30.0), Segment(joint=joint)], bound=False)
+
+
+@pytest.mark.parametrize(
+    ("math", "more", "angle"),
+    [
+        (_LINEAR, "", 65.0),
+        ("<apply><minus/><ci>x</ci></apply>",
+         '<newparam sid="x"><SIDREF>km/j0/axis0</SIDREF></newparam>', -30.0),
+        ("<apply><divide/><apply><minus/><ci>x</ci><ci>y</ci></apply><cn>4</cn></apply>",
+         '<newparam sid="x"><SIDREF>km/j0/axis0</SIDREF></newparam>'
+         '<newparam sid="y"><float>10</float></newparam>', 5.0),
+    ],
+)  # fmt: skip
+def test_an_axis_that_follows_begins_where_its_formula_puts_it(
+    math: str, more: str, angle: float
+) -> None:
+    world, codes = load(_two_axes(), model=_formula(math, more=more))
+    outer, inner = frames_of(world, 1)
+    apart = np.linalg.inv(outer) @ inner
+    assert math_degrees(apart[0, 2], apart[2, 2]) == pytest.approx(angle, abs=1e-9)
+    assert codes == ["kinematics-joint-follows"]
+
+
+def test_an_axis_whose_formula_is_a_number_does_not_move() -> None:
+    world, codes = load(_two_axes(), model=_formula("<cn>-12</cn>"))
+    assert ([joint.kind for joint in world.joints], codes) == ([JointKind.HINGE] * 2, [])
+
+
+def math_degrees(sine: float, cosine: float) -> float:
+    return math.degrees(math.atan2(sine, cosine))
+
+
+@pytest.mark.parametrize(
+    "math",
+    [
+        "<apply><sin/><csymbol>km/j0/axis0</csymbol></apply>",
+        "<apply><times/><csymbol>km/j0/axis0</csymbol><csymbol>km/j0/axis0</csymbol></apply>",
+        "<apply><plus/><csymbol>km/nothing</csymbol><cn>1</cn></apply>",
+    ],
+)
+def test_formulas_that_are_not_linear_are_counted(math: str) -> None:
+    data = document(_two_axes(), model=_formula(math))
+    read = colladaphy.read(data)
+    outer, inner = frames_of(read.load(), 1)
+    assert np.allclose((np.linalg.inv(outer) @ inner)[:3, :3], np.eye(3), atol=1e-9)
+    (finding,) = [found for found in read.report if found.code == "kinematics-joint-follows"]
+    assert "1 formulas are not linear" in finding.message
+
+
+def test_formulas_of_formulas_are_followed_and_circles_are_not() -> None:
+    second = _formula("<csymbol>km/j1/a1</csymbol>", target="km/j1/axis0").replace(
+        'sid="f"', 'sid="g"'
+    )
+    world, _ = load(_two_axes(), model=_formula("<csymbol>km/j0/axis0</csymbol>") + second)
+    outer, inner = frames_of(world, 1)
+    apart = np.linalg.inv(outer) @ inner
+    assert math_degrees(-apart[1, 2], apart[2, 2]) == pytest.approx(
+        math.degrees(math.atan2(math.sin(math.radians(30)), math.cos(math.radians(30))))
+    )
+    circle = _formula("<apply><plus/><csymbol>km/j1/axis0</csymbol><cn>9</cn></apply>")
+    world, _ = load(_two_axes(), model=circle + second)
+    outer, inner = frames_of(world, 1)
+    assert np.allclose((np.linalg.inv(outer) @ inner)[:3, :3], np.eye(3), atol=1e-9)
+
+
+def test_links_stand_where_their_nodes_show_them_though_nothing_is_bound_to_these() -> None:
+    arm = Arm([Segment(value=30.0), Segment(kind="prismatic", axis=(1, 0, 0), value=0.4)],
+              base_at=(3.0, 0.0, 0.0), bound=False)  # fmt: skip
+    text = document(arm).decode().replace(' node="base"', "")
+    for number in (0, 1):
+        start = text.index(f'<newparam sid="k_j{number}_value">')
+        end = text.index("</newparam>", start)
+        text = f'{text[:start]}<newparam sid="k_j{number}_value"><float>0</float>{text[end:]}'
+    read = colladaphy.read(text.encode())
+    world = read.load()
+    assert [f.code for f in read.report if f.code.startswith("kinematics")] == []
+    for number, (before, after) in enumerate(arm.frames()):
+        outer, inner = frames_of(world, number)
+        assert np.allclose(outer[:3, 3], before[:3, 3], atol=1e-12)
+        assert np.allclose(inner[:3, 3], after[:3, 3], atol=1e-12)
+
+
+def test_a_target_may_end_in_what_of_the_transform_is_meant() -> None:
+    data = document(Arm([Segment(value=30.0)])).replace(b'/value"', b'/value.ANGLE"')
+    read = colladaphy.read(data)
+    outer, inner = frames_of(read.load(), 0)
+    apart = np.linalg.inv(outer) @ inner
+    assert math_degrees(apart[1, 0], apart[0, 0]) == pytest.approx(30.0)
+    assert [f.code for f in read.report if f.code.startswith("kinematics")] == []
+
+
+@pytest.mark.parametrize(
+    ("segment", "ends"),
+    [
+        (Segment(value=30.0, limits=(-10.0, 10.0)), (-10.0, 30.0)),
+        (Segment(value=30.0, limits=(40.0, 90.0)), (30.0, 90.0)),
+        (Segment(kind="prismatic", value=-0.5, limits=(0.0, 1.0)), (-0.5, 1.0)),
+    ],
+)
+def test_limits_give_way_to_the_pose_of_the_file(
+    segment: Segment, ends: tuple[float, float]
+) -> None:
+    world, codes = load(Arm([segment]))
+    assert codes == ["kinematics-joint-beyond"]
+    (joint,) = world.joints
+    slides = segment.kind == "prismatic"
+    found = (
+        (joint.linear_min[2], joint.linear_max[2])
+        if slides
+        else tuple(np.degrees([joint.angular_min[2], joint.angular_max[2]]))
+    )
+    assert np.allclose(found, ends, atol=1e-9)
+    world.gravity, world.time_step = (0, 0, 0), 0.002
+    pytest.importorskip("mujoco")
+    engine = create_engine("mujoco")
+    before = world.positions.copy()
+    engine.load(world)
+    engine.step(1000)
+    engine.store(world)
+    assert np.abs(world.positions - before).max() < 1e-9

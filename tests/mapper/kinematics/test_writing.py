@@ -124,3 +124,15 @@ def test_limits_beyond_all_degrees_are_written_without_a_warning() -> None:
     joint.angular_max = np.where(np.isfinite(joint.angular_max), joint.angular_max, 1.7e308)
     joint.angular_min = np.where(np.isfinite(joint.angular_min), joint.angular_min, -1.7e308)
     assert compare(colladaphy.read(written(world)).load(), world) == []
+
+
+def test_what_holds_nothing_is_no_joint_of_a_robot() -> None:
+    world = World()
+    first, second = (world.create_sphere(n, (0, 0, n), 0.6, "iron") for n in (1, 2))
+    free = (np.inf, np.inf, np.inf)
+    least = (-np.inf, -np.inf, -np.inf)
+    world.attach_joint(first, second, linear_min=least, linear_max=free, angular_min=least,
+                       angular_max=free, interpenetrate=True)  # fmt: skip
+    data = written(world)
+    assert b"<kinematics_model" not in data
+    assert compare(world, colladaphy.read(data).load()) == []

@@ -108,7 +108,7 @@ def add_kinematics(root: document.ColladaRows, world: World) -> None:
 
 def _models(world: World) -> list[_Model]:
     """What is bound together, each as a tree that begins at the world or at the first body."""
-    joints = {joint.sid: joint for joint in world.joints if joint.enabled}
+    joints = {joint.sid: joint for joint in world.joints if joint.enabled and _holds(joint)}
     at: dict[int, list[int]] = {}
     for sid, joint in joints.items():
         for body in _bodies(joint):
@@ -145,6 +145,13 @@ def _models(world: World) -> list[_Model]:
                 level.append(fresh)
                 model.axes += _axes(world, joint, backward=backward)
     return found
+
+
+def _holds(joint: Joint) -> bool:
+    """Whether any axis is not free: what holds nothing only lets bodies pass."""
+    least = np.concatenate([joint.linear_min, joint.angular_min])
+    most = np.concatenate([joint.linear_max, joint.angular_max])
+    return not bool(np.all(np.isneginf(least) & np.isposinf(most)))
 
 
 def _bodies(joint: Joint) -> tuple[int, int]:

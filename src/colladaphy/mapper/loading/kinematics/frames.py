@@ -53,20 +53,24 @@ class _Ends:
 
 
 def stands_of(
-    robot: Robot, joints: Sequence[JointModel | None], placement: Placement,
-    resources: Sequence[Resource],
+    robot: Robot, joints: Sequence[JointModel | None], shown: Sequence[int],
+    placement: Placement, resources: Sequence[Resource],
 ) -> list[Stand | None]:  # fmt: skip
-    """The frames of the joints of all attachments (those of `joints` that there are)."""
-    return _Frames(robot, joints, placement, resources).stands()
+    """The frames of the joints of all attachments (those of `joints` that there are).
+
+    `shown` has the row of the node of each link, -1 for none.
+    """
+    return _Frames(robot, joints, shown, placement, resources).stands()
 
 
 class _Frames:
     def __init__(
-        self, robot: Robot, joints: Sequence[JointModel | None], placement: Placement,
-        resources: Sequence[Resource],
+        self, robot: Robot, joints: Sequence[JointModel | None], shown: Sequence[int],
+        placement: Placement, resources: Sequence[Resource],
     ) -> None:  # fmt: skip
         self._robot = robot
         self._joints = joints
+        self._shown = shown
         self._placement = placement
         self._resources = resources
         self._links: dict[int, Poses] = {}
@@ -96,8 +100,9 @@ class _Frames:
             if attachment.outer == root and ends is not None:
                 return ends.first.then(attachment.before.inverse())
         around = Poses.none(1)
-        if self._robot.node >= 0:
-            around = self._placement.poses(np.array([self._robot.node]))[0]
+        node = self._robot.node if self._robot.node >= 0 else self._shown[root]
+        if node >= 0:
+            around = self._placement.poses(np.array([node]))[0]
         return around.then(self._robot.model.links[root].pose)
 
     def _stand(self, attachment: Attachment, joint: JointModel, ends: _Ends | None) -> Stand:
@@ -106,10 +111,11 @@ class _Frames:
             after = self._links[attachment.inner].then(attachment.after)
             return Stand(before if joint.moving else after, after, True)
         agrees = True
+        ends = ends or self._by_node(attachment, joint, before)
         if ends is None:
             chain = [before]
             for axis in joint.axes:
-                chain.append(chain[-1].then(_moved(axis, self._value(axis))))
+                chain.append(chain[-1].then(_moved(axis, self._robot.values.get(axis.place, 0.0))))
             moving = [at for at, axis in enumerate(joint.axes) if not axis.is_still]
             outer, inner = (moving[0], moving[-1] + 1) if moving else (-1, -1)
             ends = _Ends(before, chain[outer], chain[inner], chain[-1])
@@ -119,18 +125,36 @@ class _Frames:
         self._links[attachment.inner] = ends.last.then(own)
         return Stand(ends.outer, ends.inner, agrees)
 
-    def _value(self, axis: Axis) -> float:
-        found = self._robot.bound.get(axis.place)
-        return 0.0 if found is None or found.value is None else found.value
-
     def _agree(self, one: Poses, other: Poses) -> bool:
         apart = one.inverse().then(other)
-        places = [poses.positions[0] for poses in self._links.values()]
-        size = max(float(np.ptp(np.array(places), axis=0).max()), 1e-3) if places else 1e-3
         angle = 2.0 * float(np.abs(apart.orientations[0, 1:]).max())
-        return angle <= _APART and float(np.abs(apart.positions[0]).max()) <= _APART * size
+        return angle <= _APART and float(np.abs(apart.positions[0]).max()) <= _APART * self._size()
+
+    def _size(self, more: Sequence[Poses] = ()) -> float:
+        """How far the links that are known, and some other frames, are apart."""
+        places = [poses.positions[0] for poses in (*self._links.values(), *more)]
+        return max(float(np.ptp(np.array(places), axis=0).max()), 1e-3) if places else 1e-3
 
     # --- nodes
+
+    def _by_node(self, attachment: Attachment, joint: JointModel, before: Poses) -> _Ends | None:
+        """The inner link as its node shows it, if a joint of one axis can have moved it there."""
+        node = self._shown[attachment.inner]
+        if node < 0 or len(joint.axes) != 1:
+            return None
+        here = self._placement.poses(np.array([node]))[0]
+        last = here.then(self._robot.model.links[attachment.inner].pose.inverse())
+        apart = before.inverse().then(last)
+        shift, turn = apart.positions[0], apart.orientations[0, 1:]
+        direction = np.array(joint.axes[0].direction)
+        if joint.axes[0].slides:
+            shift = shift - direction * (shift @ direction)
+        else:
+            turn = turn - direction * (turn @ direction)
+        near = _APART * self._size([before, last])
+        if 2.0 * float(np.abs(turn).max()) > _APART or float(np.abs(shift).max()) > near:
+            return None
+        return _Ends(before, before, last, last)
 
     def _bound(self, joint: JointModel | None) -> _Ends | None:
         """The frames before and behind the transforms that the axes of a joint are bound to."""

@@ -54,8 +54,11 @@ class Carriers:
                 self._by_name.setdefault(name, []).append(at)
         self._declared = {text for column in texts for text in column if text}
 
-    def of(self, robot: Robot, joints: Sequence[JointModel | None]) -> list[int]:
-        """The body of each link: its number, -1 for none, or `WORLD` for what nothing carries."""
+    def of(self, robot: Robot, joints: Sequence[JointModel | None]) -> tuple[list[int], list[int]]:
+        """The body of each link, and the row of the node that shows it; -1 for none.
+
+        A body is its number, -1 for none, or `WORLD` for what nothing carries.
+        """
         model = robot.model
         nodes = [-1] * len(model.links)
         for root in model.roots[:1]:
@@ -68,6 +71,10 @@ class Carriers:
                         nodes[attachment.inner] = bound.node
         places = [self._place(robot, link, node)
                   for link, node in zip(model.links, nodes, strict=True)]  # fmt: skip
+        shown = [
+            int(self._found.nodes[place]) if node < 0 <= place else node
+            for place, node in zip(places, nodes, strict=True)
+        ]
         made = [-1 if place < 0 else self._number[place] for place in places]
         for root in model.roots:
             if made[root] == _NOBODY and self._is_frame(model.links[root], places[root]):
@@ -77,7 +84,7 @@ class Carriers:
                     "nor a mass: the world holds what hangs on it."
                 )
                 self._note(rules.LINK_IN_WORLD, model.links[root], message)
-        return made
+        return made, shown
 
     def _is_frame(self, link: Link, place: int) -> bool:
         """Whether no body is made of a link, or whether it is only not among those loaded."""

@@ -77,6 +77,26 @@ class References:
             return None
         return self._pool.number(target), found
 
+    def axis_of(self, place: Place) -> Place | None:
+        """The revolute or prismatic that an element is, holds or stands in."""
+        home, element = place
+        columns = self._pool.resources[home].columns
+        name = columns.local_name(element)
+        if name == "instance_joint":
+            inner = self.instance_of(place)
+            return None if inner is None else self.axis_of(inner)
+        if name == "joint":
+            end = columns.end_of(element)
+            inside = (number for number in range(element + 1, end)
+                      if columns.local_name(number) in ("revolute", "prismatic"))  # fmt: skip
+            first = next(inside, None)
+            return None if first is None else (home, first)
+        while element >= 0:
+            if columns.local_name(element) in ("revolute", "prismatic"):
+                return home, element
+            element = columns.parent_of(element)
+        return None
+
     def resolve(self, reference: str, origin: Place) -> Value | None:
         """What a path of sids, or the name of a parameter, means at an element."""
         return self._resolve(reference, origin, frozenset(), _MOST_STEPS)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,7 +12,7 @@ from colladaphy.errors import ColladaError
 from colladaphy.links.names import c
 from colladaphy.mapper import rules
 from colladaphy.mapper.loading.kinematics.models import Model, Place, numbers_of, read_model
-from colladaphy.mapper.loading.kinematics.references import References
+from colladaphy.mapper.loading.kinematics.references import References, Value
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy_schema.kinematics_columns import (
     ArticulatedSystemTypeRows,
@@ -23,6 +24,7 @@ from colladaphy_schema.kinematics_model_columns import KinematicsModelTypeRows
 __all__ = ["AxisInfo", "Bound", "Robot", "find_robots"]
 
 _MOST_ROBOTS = 10_000
+_MEMBER = re.compile(r"(\.[A-Za-z_]\w*|(\(\d+\)){1,2})\s*$")
 
 
 @dataclass(slots=True)
@@ -45,7 +47,8 @@ class AxisInfo:
     high: float | None = None
     """As they are written: degrees or a length."""
     locked: bool = False
-    formulas: int = 0
+    formulas: list[Place] = field(default_factory=list)
+    """What makes it follow others."""
 
 
 @dataclass(slots=True)
@@ -63,6 +66,8 @@ class Robot:
     """By axis."""
     infos: dict[Place, AxisInfo] = field(default_factory=dict)
     """By axis."""
+    values: dict[Place, float] = field(default_factory=dict)
+    """Degrees or lengths at the pose of the file, by axis; those that are missing are zero."""
 
 
 def find_robots(tables: Tables, references: References) -> list[Robot]:
@@ -183,25 +188,10 @@ class _Finder:
 
     # --- axes
 
-    def _axis(self, place: Place) -> Place | None:
-        """The revolute or prismatic that an element is, holds or stands in."""
-        home, element = place
-        columns = self._pool.resources[home].columns
-        name = columns.local_name(element)
-        if name == "instance_joint":
-            inner = self._references.instance_of(place)
-            return None if inner is None else self._axis(inner)
-        if name == "joint":
-            end = columns.end_of(element)
-            inside = (number for number in range(element + 1, end)
-                      if columns.local_name(number) in ("revolute", "prismatic"))  # fmt: skip
-            first = next(inside, None)
-            return None if first is None else (home, first)
-        while element >= 0:
-            if columns.local_name(element) in ("revolute", "prismatic"):
-                return home, element
-            element = columns.parent_of(element)
-        return None
+    def _axis(self, found: Value | None) -> Place | None:
+        if found is None or found.place is None:
+            return None
+        return self._references.axis_of(found.place)
 
     def _bind_axes(self, home: int, binds: Any, among: list[Robot]) -> None:
         axes = binds.axis
@@ -215,7 +205,7 @@ class _Finder:
         ):
             origin = home, ordinal
             found = self._references.resolve(address, origin) if address else None
-            axis = None if found is None or found.place is None else self._axis(found.place)
+            axis = self._axis(found)
             if found is None or axis is None:
                 self._note(rules.KINEMATICS_LOST, origin, f"The axis {address!r} cannot be found.")
                 continue
@@ -263,37 +253,29 @@ class _Finder:
             lows, highs = (self._numbers(home, limits, child) for child in (limits.min, limits.max))
             there = dict(zip(limits.owner.tolist(), zip(lows, highs, strict=True), strict=True))
             locked = self._flags(home, infos, infos.locked)
-            formulas = np.bincount(infos.formula.owner, minlength=len(infos))
-            formulas += np.bincount(infos.instance_formula.owner, minlength=len(infos))
+            formulas: list[list[Place]] = [[] for _ in range(len(infos))]
+            for child in (infos.formula, infos.instance_formula):
+                for owner, ordinal in zip(child.owner.tolist(), numbers_of(child), strict=True):
+                    formulas[owner].append((home, ordinal))
             for row, (ordinal, address) in enumerate(
                 zip(numbers_of(infos), infos.axis, strict=True)
             ):
                 found = self._references.resolve(address, (home, ordinal))
-                axis = None if found is None or found.place is None else self._axis(found.place)
+                axis = self._axis(found)
                 if axis is None:
                     self._note(rules.KINEMATICS_LOST, (home, ordinal),
                                f"The axis {address!r} cannot be found.")  # fmt: skip
                     continue
                 low, high = there.get(row, (None, None))
-                robot.infos[axis] = AxisInfo(low, high, locked[row], int(formulas[row]))
+                robot.infos[axis] = AxisInfo(low, high, locked[row], formulas[row])
 
     # --- nodes
 
     def _target(self, reference: str, origin: Place) -> tuple[int, int] | None:
         """The row of the node that a reference leads to, and the transform in it."""
-        home, element = origin
-        resource = self._pool.resources[home]
-        found = None
-        try:
-            target, found = resource.follow(reference, element)
-            home = self._pool.number(target)
-        except ColladaError:
-            # The first step may be a sid, of a node anywhere.
-            head, *rest = reference.strip().lstrip("#").split("/")
-            at: int | None = resource.sids.within(0, head)
-            for sid in rest:
-                at = None if at is None else resource.sids.within(at, sid)
-            found = at
+        whole = self._followed(reference, origin)
+        # A path may end in what is meant of a transform: its ANGLE, or a number of it.
+        home, found = whole or self._followed(_MEMBER.sub("", reference), origin) or (0, None)
         if found is None:
             self._note(rules.KINEMATICS_LOST, origin, f"The node {reference!r} cannot be found.")
             return None
@@ -303,6 +285,20 @@ class _Finder:
             step, found = found, columns.parent_of(found)
         row = self._tables.placement.nodes.row_of(home, found)
         return None if row < 0 else (row, step)
+
+    def _followed(self, reference: str, origin: Place) -> Place | None:
+        home, element = origin
+        resource = self._pool.resources[home]
+        try:
+            target, found = resource.follow(reference, element)
+            return self._pool.number(target), found
+        except ColladaError:
+            # The first step may be a sid, of a node anywhere.
+            head, *rest = reference.strip().lstrip("#").split("/")
+            at: int | None = resource.sids.within(0, head)
+            for sid in rest:
+                at = None if at is None else resource.sids.within(at, sid)
+            return None if at is None else (home, at)
 
     def _note(self, rule: Any, place: Place, message: str) -> None:
         home = self._pool.resources[place[0]]
