@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 import pytest
 from lxml import etree
@@ -18,9 +20,11 @@ from tests.conform.documents import (
     words,
 )
 
+import colladaphy
 from colladaphy.conform import conform
 from colladaphy.conform.conventions import CONVENTIONS
 from colladaphy.conform.frames import transform_of
+from colladaphy.world import rotations
 
 
 def asset(tool: str, unit: str = "") -> str:
@@ -414,3 +418,68 @@ def test_no_size_is_too_odd(number: str) -> None:
     )
     for convention in ("auto", "bullet", "blender"):
         mended(physics(body, version="1.4.1"), convention=convention)
+
+
+def apart(limits: str) -> etree._ElementTree:
+    """Two bodies 3 apart, one of them turned, whose frames are apart by that and a little more."""
+    nodes = (
+        '<node id="n1"><translate>1 0 0</translate><rotate>0 0 1 90</rotate></node>'
+        '<node id="n2"><translate>1 3 0</translate></node>'
+    )
+    bodies = "".join(
+        f'<rigid_body sid="b{i}"><technique_common><mass>1</mass>{BOX}</technique_common>'
+        "</rigid_body>"
+        for i in (1, 2)
+    )
+    constraint = (
+        '<rigid_constraint sid="c"><ref_attachment rigid_body="pm/b1"><translate>0 0 1</translate>'
+        '<rotate>1 0 0 90</rotate></ref_attachment><attachment rigid_body="pm/b2">'
+        f"<translate>0.5 0 0</translate></attachment><technique_common>{limits}</technique_common>"
+        "</rigid_constraint>"
+    )
+    instances = "".join(
+        f'<instance_rigid_body body="b{i}" target="#n{i}"><technique_common/></instance_rigid_body>'
+        for i in (1, 2)
+    )
+    return physics(
+        bodies=bodies, more=constraint, nodes=nodes,
+        instances=instances + '<instance_rigid_constraint constraint="c"/>',
+    )  # fmt: skip
+
+
+def test_limits_count_from_the_current_distance_where_that_is_asked_for() -> None:
+    limits = "<limits><linear><min>-20 0 -5</min><max>20 0 5</max></linear></limits>"
+    text = etree.tostring(apart(limits))
+    name = "thesis-current-distance"
+    plain, moved = (
+        colladaphy.read(text, repair=True, convention=convention) for convention in ("auto", name)
+    )
+    found = [document.load() for document in (plain, moved)]
+    # The standard compares the frames, which are apart by what lies between the bodies.
+    shift = np.array([joint_shift(world) for world in found])
+    assert np.allclose(np.linalg.norm(shift, axis=1), [np.sqrt(3**2 + 0.5**2 + 1), 0], atol=1e-12)
+    for world in found:
+        (joint,) = world.joints
+        assert joint.linear_min.tolist() == [-20, 0, -5]
+        assert joint.linear_max.tolist() == [20, 0, 5]
+    turns = [world.joints[0].frame1[1] for world in found]
+    assert np.allclose(*turns, atol=1e-15)
+    assert [f.code for f in moved.report if "distance" in f.code] == ["convention-current-distance"]
+    again = colladaphy.read(colladaphy_bytes(moved), repair=True, convention=name)
+    assert not any("distance" in finding.code for finding in again.report)
+
+
+def joint_shift(world: colladaphy.World) -> np.ndarray:
+    """How far the frames of the only joint are apart, in the world."""
+    (joint,) = world.joints
+    ends = []
+    for body, (point, _) in ((joint.body1, joint.frame1), (joint.body2, joint.frame2)):
+        assert body is not None
+        ends.append(body.position + rotations.rotate(body.orientation, point))
+    return ends[1] - ends[0]
+
+
+def colladaphy_bytes(document: colladaphy.Document) -> bytes:
+    stream = io.BytesIO()
+    document.write(stream)
+    return stream.getvalue()

@@ -78,6 +78,9 @@ def command(
     With --si, --up-axis and --kinematics, OUT is the World of IN alone, written anew; what else
     IN holds is left out, and said to be.
 
+    Bodies that are lost are said in the last line, and with --strict by the exit code 1; a World
+    that comes out empty, though IN has bodies, is an error: the exit code is 1 either way.
+
     What was changed goes to standard error, or to the FILE of --report (as JSON where its name
     ends in .json). An OUT is written as a whole or not at all.
     """

@@ -128,6 +128,14 @@ RESTITUTION = Rule(
     section="COLLADA 1.5 §spring",
     why="the spring would pull to a place that nobody meant",
 )
+CURRENT_DISTANCE = Rule(
+    "convention-current-distance",
+    _INFO,
+    "linear limits counted from where the bodies are",
+    "the frame of the reference body stands where the other one is now",
+    "thesis 5.6",
+    why="the bodies would snap together",
+)
 
 RULES = (
     CONVENTION,
@@ -145,4 +153,5 @@ RULES = (
     GRAVITY_UNIT,
     HOLLOW,
     RESTITUTION,
+    CURRENT_DISTANCE,
 )

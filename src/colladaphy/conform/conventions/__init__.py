@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from colladaphy.conform import convention_rules
 from colladaphy.conform.context import Context
-from colladaphy.conform.conventions import blender, bullet, model_frames, units
+from colladaphy.conform.conventions import blender, bullet, model_frames, thesis, units
 from colladaphy.conform.conventions.clues import Clues, add_note, drop_note, find_note, read_clues
 from colladaphy.findings import Finding
 from colladaphy.source import extensions
@@ -108,6 +108,12 @@ CONVENTIONS: tuple[Convention, ...] = (
         "paths as references, the pe profile without a namespace of its own",
         lambda clues: "its pe profile has no namespace of its own" if clues.bare_pe else None,
         _nothing,
+    ),
+    Convention(
+        "thesis-current-distance",
+        "linear limits count from where the bodies are",
+        lambda clues: None,  # only by name: no file says so of itself
+        lambda context, named, clues: thesis.count_from_here(context),
     ),
 )
 
