@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
+from weakref import WeakKeyDictionary
 
 from lxml import etree
 
@@ -19,7 +20,7 @@ from colladaphy.findings import Report
 from colladaphy.links import rules
 from colladaphy.links.names import c
 from colladaphy.links.resource import Opener, Resource
-from colladaphy.mapper import Chosen, Prefer, WriteOptions, load
+from colladaphy.mapper import Chosen, Prefer, Sofar, WriteOptions, key_of, load
 from colladaphy.source import Archive
 from colladaphy.world import World
 from colladaphy_schema.codec import decode, encode_document, paused_collector
@@ -60,6 +61,7 @@ class Document(Choosable):
     ) -> None:
         self._root: Collada | None = None
         self._others: dict[int, Document] = {}
+        self._sofar: WeakKeyDictionary[World, Sofar] = WeakKeyDictionary()
         if isinstance(content, Resource):
             self._resource = content
             self._is_shown = False
@@ -215,8 +217,20 @@ class Document(Choosable):
         """Load models of scenes; what `Scene.load` and `Model.load` do."""
         scenes, models = list(scenes), list(models)
         resource = scenes[0].root if scenes else self._current()
+        chosen = _chosen(scenes, models)
+        sofar, before = Sofar(), []
+        if world is not None and world in self._sofar:
+            known = self._sofar[world]
+            # A model that is loaded again has nothing to do with what was loaded before.
+            if known.bodies.keys().isdisjoint(map(key_of, chosen.models)):
+                sofar = known
+                every = [(model.scene.resource, model.number)
+                         for scene in Scenes(self, resource) for model in scene.models]  # fmt: skip
+                before = [model for model in every if key_of(model) in known.bodies]
         with schema_errors(resource):
-            return load(resource, _chosen(scenes, models), world, **options)
+            made = load(resource, chosen, world, sofar=sofar, before=before, **options)
+        self._sofar[made] = sofar
+        return made
 
     def add_scene(self, world: World, id: str, *, options: WriteOptions | None = None) -> Scene:
         """Store a World as one more physics scene, which is instantiated; all else is kept.

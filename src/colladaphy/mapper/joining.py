@@ -6,6 +6,7 @@ values are the same, and get another name where theirs is taken.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -20,14 +21,17 @@ from colladaphy.world.columns import BODY_FIELDS, MEMBER_FIELDS
 from colladaphy.world.joints import JOINT_FIELDS
 from colladaphy.world.materials import VALUES
 
-__all__ = ["join"]
+__all__ = ["join", "join_joints"]
 
 
 Array = NDArray[Any]
 
 
-def join(world: World, fresh: World, document: Resource) -> None:
-    """Move everything of `fresh` into `world`, which keeps its own gravity and clock."""
+def join(world: World, fresh: World, document: Resource) -> dict[int, int]:
+    """Move everything of `fresh` into `world`, which keeps its own gravity and clock.
+
+    Returns the system ids of the bodies there, by those in `fresh`.
+    """
     materials = _materials(world, fresh, document)
     meshes = {
         id: world.add_mesh(mesh.vertices, mesh.faces, convex=mesh.convex).id
@@ -59,7 +63,11 @@ def join(world: World, fresh: World, document: Resource) -> None:
     for sid, name in fresh.names.items():
         world.names[ids[sid]] = name
     world.next_body_sid = max(world.next_body_sid, max(ids.values(), default=0) + 1)
-    _join_joints(world, fresh, ids, document)
+    values = {name: fresh.joint_table.column(name) for name in JOINT_FIELDS}
+    values["bodies"] = _renamed(values["bodies"].reshape(-1), {0: 0, **ids}).reshape(-1, 2)
+    old = fresh.joint_table.column("sids").tolist()
+    join_joints(world, old, values, fresh.joint_names, document)
+    return ids
 
 
 def _materials(world: World, fresh: World, document: Resource) -> dict[int, int]:
@@ -100,8 +108,11 @@ def _renamed(column: Array, ids: dict[int, int]) -> Array:
     return np.asarray(renamed[where])
 
 
-def _join_joints(world: World, fresh: World, ids: dict[int, int], document: Resource) -> None:
-    old = fresh.joint_table.column("sids").tolist()
+def join_joints(
+    world: World, old: list[int], values: dict[str, Array], names: Mapping[int, str],
+    document: Resource,
+) -> None:  # fmt: skip
+    """Add joints whose columns name bodies of `world`; `old` are the ids that they had."""
     if not old:
         return
     new = dict(zip(old, free_ids(old, world.joint_table.column("sids").tolist()), strict=True))
@@ -109,13 +120,12 @@ def _join_joints(world: World, fresh: World, ids: dict[int, int], document: Reso
     if moved:
         message = f"{moved} of {len(new)} joints got new system ids, in the same order."
         document.note(rules.SYSTEM_ID_TAKEN, message=message)
-    values = {name: fresh.joint_table.column(name) for name in JOINT_FIELDS}
-    values["bodies"] = _renamed(values["bodies"].reshape(-1), {0: 0, **ids}).reshape(-1, 2)
     world.joint_table.extend(np.array(list(new.values()), dtype=np.int64), values)
     for sid, pair in zip(new.values(), values["bodies"].tolist(), strict=True):
         for body in pair:
             if body:
                 world.joints_of.setdefault(body, []).append(sid)
-    for sid, name in fresh.joint_names.items():
-        world.joint_names[new[sid]] = name
+    for sid, name in names.items():
+        if sid in new:
+            world.joint_names[new[sid]] = name
     world.next_joint_sid = max(world.next_joint_sid, max(new.values()) + 1)

@@ -74,6 +74,14 @@ CONSTRAINT_SKIPPED = Rule(
     "thesis 5.3",
     why="The body that is there moves freely.",
 )
+JOINT_LATE = Rule(
+    "load-joint-late",
+    _INFO,
+    "Joints that waited for a body of another model are in the World, now that it is loaded too.",
+    None,
+    "thesis 5.3",
+    why="Who counted the joints before finds more of them.",
+)
 CONSTRAINT_FAULTY = Rule(
     "load-constraint-faulty",
     _WARNING,
@@ -269,6 +277,7 @@ RULES = (
     CONVERSION,
     CONSTRAINT_SKIPPED,
     CONSTRAINT_FAULTY,
+    JOINT_LATE,
     KINEMATICS_UNUSED,
     KINEMATICS_LOST,
     ROBOT_EMPTY,

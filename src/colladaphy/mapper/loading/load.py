@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.errors import DocumentError
-from colladaphy.findings import Severity
+from colladaphy.findings import Finding, Severity
 from colladaphy.links.resource import Resource
 from colladaphy.mapper import rules
 from colladaphy.mapper.conversion import conversion, convert
@@ -25,6 +25,7 @@ from colladaphy.mapper.loading.kinematics.joints import load_kinematics
 from colladaphy.mapper.loading.materials import MaterialTable
 from colladaphy.mapper.loading.meshes import Geometries
 from colladaphy.mapper.loading.scenes import apply_scenes, read_scene
+from colladaphy.mapper.loading.sofar import Late, Sofar, are_waiting, key_of
 from colladaphy.mapper.loading.tables import Tables
 from colladaphy.world import World
 from colladaphy_schema.codec import paused_collector
@@ -58,6 +59,8 @@ class Loaded:
     """System ids of the joints that the kinematics have, and no rigid_constraint."""
     materials: MaterialTable
     geometries: Geometries
+    roots: NDArray[np.int64]
+    """Rows of the instance_physics_model elements that were asked for; -1 for none."""
 
 
 def load(
@@ -68,32 +71,72 @@ def load(
     prefer: Prefer = "newer",
     si: bool = False,
     up_axis: str | None = None,
+    sofar: Sofar | None = None,
+    before: Sequence[tuple[Resource, int]] = (),
 ) -> World:
     """Load scenes or single models into a World; see `colladaphy.document.Document.load`.
 
     A `world` that is given keeps its gravity, unit and axes; what is loaded is converted to them,
-    and keeps its system ids where they are free, its order always.
+    and keeps its system ids where they are free, its order always. `sofar` says what it has of the
+    document, and is told what it gets; `before` are the models that it has.
     """
-    before = len(resource.report)
+    noted = len(resource.report)
     # Numbers too large for arithmetic are told from what becomes of them.
     with paused_collector(), np.errstate(all="ignore"):
-        fresh = _loaded(resource, chosen, prefer).world
+        loaded, again = _loaded(resource, chosen, prefer), False
+        if sofar is not None:
+            whole = _with_those_before(resource, chosen, prefer, sofar, before, noted)
+            loaded, again = (loaded, False) if whole is None else (whole, True)
+        fresh = loaded.world
         change = conversion(resource, world, si=si, up_axis=up_axis)
         if change is not None:
             convert(fresh, change)
     errors = [
         finding
-        for finding in resource.report.findings[before:]
+        for finding in resource.report.findings[noted:]
         if finding.severity is Severity.ERROR
     ]
     if errors and not resource.tolerant:
         raise DocumentError(errors)
     _log.info("loaded %d bodies, %d joints, %d materials from %s", len(fresh.bodies),
               len(fresh.joints), len(fresh.materials), resource.file)  # fmt: skip
-    if world is None:
-        return fresh
-    join(world, fresh, resource)
-    return world
+    models = [key_of(model) for model in chosen.models]
+    late = None
+    if again and sofar is not None:
+        earlier = [key_of(model) for model in before]
+        late, models = Late(loaded, earlier, sofar), [*earlier, *models]
+        _drop_unused_meshes(fresh)
+    ids = None if world is None else join(world, fresh, resource)
+    if late is not None and world is not None and ids is not None:
+        late.add(world, ids, resource)
+    if sofar is not None:
+        sofar.add(loaded, models, ids)
+    return fresh if world is None else world
+
+
+def _with_those_before(
+    resource: Resource, chosen: Chosen, prefer: Prefer, sofar: Sofar,
+    before: Sequence[tuple[Resource, int]], noted: int,
+) -> Loaded | None:  # fmt: skip
+    """Models together with those of before, where joints wait for bodies; None where none do.
+
+    What is noticed of them takes the place of all after the first `noted`, but is not said twice.
+    """
+    findings = resource.report.findings
+    sofar.is_waiting |= are_waiting(findings[noted:])
+    if not (before and sofar.is_waiting):
+        return None
+    del findings[noted:]
+    loaded = _loaded(resource, Chosen(chosen.scenes, [*before, *chosen.models]), prefer)
+    fresh = findings[noted:]
+    sofar.is_waiting = are_waiting(fresh)
+    known = {_said(finding) for finding in findings[:noted]}
+    findings[noted:] = [finding for finding in fresh if _said(finding) not in known]
+    return loaded
+
+
+def _said(finding: Finding) -> tuple[str, str, str | None, int | None]:
+    return finding.code, finding.message, finding.file, finding.line
 
 
 def trace(resource: Resource, chosen: Chosen, prefer: Prefer = "newer") -> Loaded:
@@ -134,7 +177,8 @@ def _loaded(resource: Resource, chosen: Chosen, prefer: Prefer) -> Loaded:
             scene.apply_pairs(world, tables, materials)
             scene.restore_counters(world)
     _drop_unused_meshes(world)
-    return Loaded(world, tables, expansion, loaded, created, joints, driven, materials, geometries)
+    return Loaded(world, tables, expansion, loaded, created, joints, driven, materials, geometries,
+                  roots)  # fmt: skip
 
 
 def _drop_unused_meshes(world: World) -> None:

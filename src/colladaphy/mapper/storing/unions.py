@@ -74,9 +74,12 @@ def _shapes(
     rows.mass = masked(values["masses"][members], leaves.says_mass[leaf])
     rows.inertia = masked(values["inertias"][members].reshape(-1, 9), leaves.says_inertia[leaf])
     kinds = values["kinds"][members]
-    # Where the common profile says them as well, but for the pose of a mesh and of a plane.
-    known = outermost and options.profile != "full"
+    # Where the common profile says them as well, but for the pose of a mesh and of a plane; and
+    # what adds nothing to the pose does not say -0.
+    known = outermost and options.profile != "full" and not options.tessellate
+    positions = values["positions"][members]
     says_position = (kinds == _MESH) | (kinds == PLANE) | (not known)
+    says_position |= differs(positions + 0.0, positions) & ~positions.any(axis=1)
     _place(rows, members, tree, says_position, options)
     add_exact_geometry(rows, leaves.exact_kinds[leaf], values["dimensions"][members], None)
     return rows
