@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from colladaphy.errors import DocumentError
 from colladaphy.findings import Finding, Severity
@@ -15,13 +14,14 @@ from colladaphy.links.resource import Resource
 from colladaphy.mapper import rules
 from colladaphy.mapper.conversion import conversion, convert
 from colladaphy.mapper.joining import join
-from colladaphy.mapper.loading.bodies import LoadedBodies, load_bodies
+from colladaphy.mapper.loading.bodies import load_bodies
 from colladaphy.mapper.loading.creation import assign_ids, create_bodies
 from colladaphy.mapper.loading.deciding import Prefer
 from colladaphy.mapper.loading.found import find_bodies
-from colladaphy.mapper.loading.instances import Expansion, expand
-from colladaphy.mapper.loading.joints import LoadedJoints, load_joints
+from colladaphy.mapper.loading.instances import expand
+from colladaphy.mapper.loading.joints import load_joints
 from colladaphy.mapper.loading.kinematics.joints import load_kinematics
+from colladaphy.mapper.loading.loaded import Loaded
 from colladaphy.mapper.loading.materials import MaterialTable
 from colladaphy.mapper.loading.meshes import Geometries
 from colladaphy.mapper.loading.scenes import apply_scenes, read_scene
@@ -42,25 +42,6 @@ class Chosen:
     scenes: Sequence[tuple[Resource, int]]
     models: Sequence[tuple[Resource, int]]
     """The instance_physics_model elements, in the order in which they are loaded."""
-
-
-@dataclass(frozen=True, slots=True)
-class Loaded:
-    """A World, and where in the documents everything in it comes from."""
-
-    world: World
-    tables: Tables
-    expansion: Expansion
-    bodies: LoadedBodies
-    created: NDArray[np.bool_]
-    """(n,) which of the bodies the World took."""
-    joints: LoadedJoints
-    driven: NDArray[np.int64]
-    """System ids of the joints that the kinematics have, and no rigid_constraint."""
-    materials: MaterialTable
-    geometries: Geometries
-    roots: NDArray[np.int64]
-    """Rows of the instance_physics_model elements that were asked for; -1 for none."""
 
 
 def load(

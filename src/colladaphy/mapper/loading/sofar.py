@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,11 +17,9 @@ from colladaphy.findings import Finding
 from colladaphy.links.resource import Resource
 from colladaphy.mapper import rules
 from colladaphy.mapper.joining import join_joints
+from colladaphy.mapper.loading.loaded import Loaded
 from colladaphy.world import World
 from colladaphy.world.joints import JOINT_FIELDS
-
-if TYPE_CHECKING:
-    from colladaphy.mapper.loading.load import Loaded
 
 __all__ = ["Late", "Sofar", "are_waiting", "key_of"]
 
