@@ -64,6 +64,12 @@ def _any_child(draw: st.DrawFn, root: etree._Element) -> etree._Element | None:
     return draw(st.sampled_from(others)) if others else None
 
 
+def _any_holder(draw: st.DrawFn, root: etree._Element) -> etree._Element | None:
+    """An element that has attributes, if there is one."""
+    holders = [node for node in root.iter(etree.Element) if node.attrib]
+    return draw(st.sampled_from(holders)) if holders else None
+
+
 def _known_tag(draw: st.DrawFn) -> str:
     return f"{{{NAMESPACE}}}{draw(st.sampled_from(_names()[0]))}"
 
@@ -138,15 +144,13 @@ def change_list_length(draw: st.DrawFn, root: etree._Element) -> None:
 
 
 def drop_attribute(draw: st.DrawFn, root: etree._Element) -> None:
-    holders = [node for node in root.iter(etree.Element) if node.attrib]
-    element = draw(st.sampled_from(holders))
-    del element.attrib[draw(st.sampled_from(sorted(element.attrib)))]
+    if (element := _any_holder(draw, root)) is not None:
+        del element.attrib[draw(st.sampled_from(sorted(element.attrib)))]
 
 
 def change_attribute(draw: st.DrawFn, root: etree._Element) -> None:
-    holders = [node for node in root.iter(etree.Element) if node.attrib]
-    element = draw(st.sampled_from(holders))
-    element.set(draw(st.sampled_from(sorted(element.attrib))), draw(st.sampled_from(TEXTS)))
+    if (element := _any_holder(draw, root)) is not None:
+        element.set(draw(st.sampled_from(sorted(element.attrib))), draw(st.sampled_from(TEXTS)))
 
 
 def add_attribute(draw: st.DrawFn, root: etree._Element) -> None:

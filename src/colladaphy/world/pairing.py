@@ -23,6 +23,7 @@ FRICTION_RULES: Final[dict[str, Callable[[Floats, Floats], Floats]]] = {
     "maximum": np.maximum,
 }
 """How the frictions of two materials make that of the pair. pe adds them up."""
+_MOST: Final = np.finfo(np.float64).max
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +48,9 @@ class PairTable:
         frictions = []
         for name in ("static_friction", "dynamic_friction"):
             values = materials.values(name, known)
-            frictions.append(np.array(FRICTION_RULES[rule](values[:, None], values)))
+            with np.errstate(over="ignore"):
+                made = FRICTION_RULES[rule](values[:, None], values)
+            frictions.append(np.minimum(made, _MOST))
         table = cls(known, np.hypot(own, own.T), *frictions)
         table._set_by_pe()
         table._set_by_hand(materials)

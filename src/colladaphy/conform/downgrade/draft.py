@@ -62,6 +62,7 @@ class Draft:
     """The copy of a 1.5 document that the rules work on, still in the namespace of 1.5."""
 
     def __init__(self, root: etree._Element) -> None:
+        _settle_notes(root)
         self.root = root
         self.findings: list[Finding] = []
         self._steps: dict[etree._Element, dict[etree._Element, str]] = {}
@@ -201,6 +202,22 @@ def _steps_of(parent: etree._Element) -> dict[etree._Element, str]:
         for position, child in enumerate(children, 1):
             steps[child] = f"{name}[{position}]" if len(children) > 1 else name
     return steps
+
+
+def _settle_notes(root: etree._Element) -> None:
+    """Put comments and instructions that stand within a text before its element: texts are whole.
+
+    1.4.1 means the same by it, and every rule may read and write a text as one.
+    """
+    for element in list(_standard_elements(root)):
+        notes = list(element)
+        text = (element.text or "") + "".join(note.tail or "" for note in notes)
+        if not notes or not text.strip() or any(local(note) for note in notes):
+            continue
+        for note in notes if element is not root else ():
+            note.tail = None
+            element.addprevious(note)
+        element.text = text
 
 
 def _standard_elements(root: etree._Element) -> Iterator[etree._Element]:

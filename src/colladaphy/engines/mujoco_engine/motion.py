@@ -121,7 +121,7 @@ class Motion:
         mujoco.mj_solveM(compiled, data, speeds, along)
         hung = self._jointed_dofs
         data.qvel[hung] = speeds[0, hung]
-        if compiled.neq:
+        if compiled.neq and compiled.nv:
             self._close_loops(data)
 
     def _close_loops(self, data: Any) -> None:

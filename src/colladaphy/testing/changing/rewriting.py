@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 from collections.abc import Callable
 from random import Random
 
@@ -132,6 +133,7 @@ def _split(draw: st.DrawFn, library: Element) -> None:
 def _rename(draw: st.DrawFn, root: Element) -> None:
     """Other ids, in everything that refers to them; the pe profile does, too."""
     known = [each.get("id", "") for each in root.iter(f"{C}*") if each.get("id")]
+    known = [id for id in known if not _NUMBER.fullmatch(id)]
     if len(known) != len(set(known)):
         return
     random = Random(draw(st.integers(0, 2**16)))
@@ -152,6 +154,10 @@ def _rename(draw: st.DrawFn, root: Element) -> None:
             elif "/" in value and value.partition("/")[0] in renamed:
                 first, _, rest = value.partition("/")
                 element.set(name, f"{renamed[first]}/{rest}")
+
+
+_NUMBER = re.compile(r"Material\d+")
+"""Ids that say the number of a material in its World."""
 
 
 def _is_own(element: Element) -> bool:
