@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from lxml import etree
-from tests.conform.bullet import standard_reader
+from tests.conform.bullet import bullet_reader, standard_reader
 from tests.conform.bullet.conftest import Export
 from tests.conform.bullet.rewritten import State, rewrite
 from tests.conform.bullet.scenes import scenes
@@ -79,6 +79,57 @@ def test_a_body_that_turns_and_was_not_touched_is_not_taken_for_edited(export: E
     document = colladaphy.read(rewrite(turned.encode()), repair=True)
     document.load()
     assert len([finding for finding in document.report if "old-value" in finding.code]) == 2
+
+
+def oval_and_loose() -> colladaphy.World:
+    """What Bullet cannot have: oval solids, a body without shape, a joint that is not enabled."""
+    world = colladaphy.World((0, 0, -9.81))
+    world.create_cylinder(1, (0, 0, 1), (0.5, 0.8), 2, "iron").rotate(0.1, 0.2, 0.3)
+    world.create_ellipsoid(2, (5, 0, 0), (1, 2, 3), "oak")
+    bare = world.create_body(3, (0, 3, 0), 2.0, (1, 2, 2.5))
+    bare.angular_velocity = (0.5, 0, 0)
+    box = world.create_box(4, (0, 0, 9), (1, 2, 3), "fir")
+    box.rotate(0.3, 0.2, 0.1)
+    world.attach_hinge_joint(world.bodies[1], box, axis=(0, 0, 1), limits=(-0.3, 0.9), name="off",
+                             enabled=False)  # fmt: skip
+    world.attach_slider_joint(bare, box, axis=(0, 1, 0), limits=(0, 2), name="bare")
+    world.attach_hinge_joint(box, None, axis=(1, 0, 0), limits=(-0.2, 0.5), name="on")
+    return world
+
+
+@pytest.mark.parametrize("profile", ["compact", "none"])
+@pytest.mark.parametrize("saved", [False, True])
+def test_what_bullet_cannot_have_comes_back(export: Export, profile: str, saved: bool) -> None:
+    world = oval_and_loose()
+    stream = io.BytesIO()
+    options = colladaphy.WriteOptions(profile=profile)  # type: ignore[arg-type]
+    colladaphy.write(world, stream, options=options)
+    text, findings = export(stream.getvalue())
+    codes = {finding.code for finding in findings}
+    assert {"downgrade-bullet-no-shape", "downgrade-bullet-constraint"} <= codes
+    seen = bullet_reader.read(text)
+    assert (len(seen.bodies), len(seen.constraints)) == (3, 1)
+    again = colladaphy.read(rewrite(text) if saved else text, repair=True).load()
+    assert [body.kind for body in again.bodies] == [body.kind for body in world.bodies]
+    near = {"rtol": 1e-5, "atol": 1e-5}
+    for one, two in zip(world.bodies, again.bodies, strict=True):
+        assert np.allclose(one.position, two.position, **near)
+        assert np.allclose(one.orientation, two.orientation, **near)
+        assert np.allclose(one.inertia, two.inertia, rtol=1e-4, atol=1e-4)
+        assert np.allclose(one.angular_velocity, two.angular_velocity, **near)
+    assert np.array_equal(again.bodies[0].dimensions, world.bodies[0].dimensions)
+    assert len(again.joints) == 3
+    by_name = {joint.name: joint for joint in again.joints}
+    for joint in world.joints:
+        other = by_name[joint.name]
+        assert joint.enabled == other.enabled
+        for name in ("angular_min", "angular_max", "linear_min", "linear_max"):
+            assert np.allclose(getattr(joint, name), getattr(other, name), **near)
+        frames = (joint.frame1, other.frame1), (joint.frame2, other.frame2)
+        ends = [(joint.body1, other.body1), (joint.body2, other.body2)]
+        for (mine, yours), (body, twin) in zip(frames, ends, strict=True):
+            assert (body is None) == (twin is None)
+            assert np.allclose(mine[0], yours[0], **near)
 
 
 def compare(want: standard_reader.Scene, got: standard_reader.Scene, tolerance: float) -> None:

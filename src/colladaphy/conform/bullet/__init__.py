@@ -16,6 +16,7 @@ import numpy as np
 from lxml import etree
 
 from colladaphy.conform.bullet import rules
+from colladaphy.conform.bullet.aside import set_aside
 from colladaphy.conform.bullet.bodies import (
     drop_unreadable_shapes,
     fold,
@@ -71,8 +72,9 @@ def _rewrite(draft: Draft) -> None:
         draft.changed()
         note_ignored(draft, scene, _models_of(draft, levels))
     geometries = Geometries(draft)
-    _write_bodies(draft, levels, geometries)
+    aside = _write_bodies(draft, levels, geometries)
     _write_everywhere(draft, geometries, levels)
+    set_aside(draft, aside)
 
 
 def _models_of(draft: Draft, levels: list[Level]) -> list[etree._Element]:
@@ -80,7 +82,10 @@ def _models_of(draft: Draft, levels: list[Level]) -> list[etree._Element]:
     return [model for model in draft.all("physics_model") if model.get("id") in urls]
 
 
-def _write_bodies(draft: Draft, levels: list[Level], geometries: Geometries) -> None:
+def _write_bodies(
+    draft: Draft, levels: list[Level], geometries: Geometries
+) -> list[etree._Element]:
+    """Write bodies and constraints; returns the instances that Bullet must not see."""
     nodes = Nodes(draft)
     weights = Weights(draft, geometries)
     all_levels = [level for top in levels for level in top.everything()]
@@ -90,19 +95,22 @@ def _write_bodies(draft: Draft, levels: list[Level], geometries: Geometries) -> 
             if not drop_unreadable_shapes(draft, body, geometries):
                 message = f"The body {body.sid!r} has no shape that Bullet can read."
                 draft.note(rules.NO_SHAPE, body.instance, message)
-                detach(body.instance)
-                level.bodies.remove(body)
+                body.is_aside = True
                 continue
             _write_body(draft, body, weights)
     bodies = [body for level in all_levels for body in level.bodies]
+    aside = [body.instance for body in bodies if body.is_aside]
     # Where every node stands must be known before the first of them is moved.
     places = [nodes.place(body) for body in bodies]
     for body, place in zip(bodies, places, strict=True):
         body.pose = nearest_rotation(place)[0]
     for level in all_levels:
         for constraint in level.constraints:
-            if not write_constraint(draft, constraint, nodes):
+            kept = write_constraint(draft, constraint, nodes)
+            if kept is None:
                 detach(constraint.instance)
+            elif not kept:
+                aside.append(constraint.instance)
     for body, place in zip(bodies, places, strict=True):
         nodes.give(body, place)
     for top in levels:
@@ -112,6 +120,7 @@ def _write_bodies(draft: Draft, levels: list[Level], geometries: Geometries) -> 
                 f"Bullet ignores parent={top.instance.attrib.pop('parent')!r}; it is left out."
             )
             draft.note(rules.IGNORED, top.instance, message)
+    return aside
 
 
 def _write_body(draft: Draft, body: Body, weights: Weights) -> None:

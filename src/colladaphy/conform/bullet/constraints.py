@@ -36,8 +36,11 @@ class End:
     frame: Matrix
 
 
-def write_constraint(draft: Draft, constraint: Constraint, nodes: Nodes) -> bool:
-    """Make Bullet read the constraint as it is meant; False where it has to be left out."""
+def write_constraint(draft: Draft, constraint: Constraint, nodes: Nodes) -> bool | None:
+    """Make Bullet read the constraint as it is meant.
+
+    False where it has to be set aside, and None where it has to be left out.
+    """
     element = constraint.element
     ends: list[End] = []
     for name in ("ref_attachment", "attachment"):
@@ -45,19 +48,24 @@ def write_constraint(draft: Draft, constraint: Constraint, nodes: Nodes) -> bool
         others = [end.body for end in ends]
         end = None if attachment is None else _end(draft, constraint, attachment, nodes, others)
         if end is None:
-            return False
+            return None
         ends.append(end)
     reference, other = ends
     common = first(element, "technique_common")
     enabled = first(common, "enabled")
+    shown = True
     if enabled is not None and (enabled.text or "true").strip() in ("false", "0"):
         message = f"The constraint {element.get('sid')!r} is not enabled; Bullet would apply it."
         draft.note(rules.CONSTRAINT_LEFT_OUT, constraint.instance, message)
-        return False
+        shown = False
+    elif any(end.body is not None and end.body.is_aside for end in ends):
+        message = f"The constraint {element.get('sid')!r} binds a body that Bullet cannot have."
+        draft.note(rules.CONSTRAINT_LEFT_OUT, constraint.instance, message)
+        shown = False
     if reference.body is None and other.body is None:
         message = f"The constraint {element.get('sid')!r} binds no body."
         draft.note(rules.CONSTRAINT_LEFT_OUT, constraint.instance, message)
-        return False
+        return None
     if first(common, "spring") is not None:
         message = f"The springs of the constraint {element.get('sid')!r} do nothing in Bullet."
         draft.note(rules.SPRING, element, message)
@@ -73,7 +81,7 @@ def write_constraint(draft: Draft, constraint: Constraint, nodes: Nodes) -> bool
             put_steps(end.element, pose_steps(draft, end.frame))
     if other.body is None:
         _check_world(draft, constraint, reference, other)
-    return True
+    return shown
 
 
 def _swap(draft: Draft, constraint: Constraint, world: End, body: End) -> None:

@@ -33,6 +33,8 @@ class Body:
     """Of the rigid_body's frame, in the world."""
     inner: Matrix = field(default_factory=lambda: np.eye(4))
     """Of the frame that Bullet's body has, in the rigid_body's frame."""
+    is_aside: bool = False
+    """Whether Bullet cannot have it, so that its instance is only kept."""
 
 
 @dataclass(eq=False)

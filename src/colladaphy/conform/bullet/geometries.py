@@ -87,6 +87,10 @@ class Geometries:
         self._by_id[name] = geometry
         return f"#{name}"
 
+    def element(self, url: str) -> etree._Element:
+        """The geometry of a url that `add` gave."""
+        return self._by_id[url.removeprefix("#")]
+
     def _put(self, geometry: etree._Element) -> None:
         """Put a new geometry into the first library, before the extras there."""
         if self._last is not None:

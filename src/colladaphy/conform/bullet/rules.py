@@ -75,7 +75,7 @@ NO_BODY = Rule(
 NO_SHAPE = Rule(
     "downgrade-bullet-no-shape",
     _WARNING,
-    "a body that has no shape that Bullet can read was left out",
+    "a body that has no shape that Bullet can read was left out, and is kept for the way back",
     section="COLLADA 1.5 §shape",
     why="Bullet cannot make a body without a shape",
 )
@@ -177,7 +177,7 @@ GEOMETRY = Rule(
 CONSTRAINT_LEFT_OUT = Rule(
     "downgrade-bullet-constraint",
     _WARNING,
-    "a constraint was left out",
+    "a constraint was left out; one that can come back is kept in an extra",
     section="COLLADA 1.5 §rigid_constraint",
     why="the bodies move freely in Bullet",
 )

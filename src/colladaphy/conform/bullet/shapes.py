@@ -13,6 +13,7 @@ import numpy as np
 from lxml import etree
 
 from colladaphy.conform.bullet import rules
+from colladaphy.conform.bullet.aside import note_primitive
 from colladaphy.conform.bullet.geometries import Geometries
 from colladaphy.conform.bullet.markup import children, number_text, numbers_text
 from colladaphy.conform.bullet.solids import (
@@ -121,6 +122,7 @@ def _write_mesh(
     url = geometries.add(f"{local(primitive)}-bullet", points, triangles, convex=True)
     message = f"The <{local(primitive)}> with different radii became the convex mesh {url!r}."
     draft.note(rules.TESSELLATED, primitive, message)
+    note_primitive(draft, primitive, geometries.element(url))
     instance = draft.make("instance_geometry", attributes={"url": url})
     primitive.addprevious(instance)
     parent = primitive.getparent()

@@ -17,6 +17,7 @@ from lxml import etree
 
 from colladaphy.conform import convention_rules
 from colladaphy.conform.bodies import body_targets
+from colladaphy.conform.bullet.aside import restore_instances, restore_primitives
 from colladaphy.conform.context import NS, Context, digits_of, insert, local
 from colladaphy.conform.conventions.clues import Clues, place_of
 from colladaphy.conform.conventions.places import Places
@@ -63,6 +64,7 @@ def apply(context: Context, *, whole: bool) -> None:
     What Bullet edits keeps its shapes: only its own model has Bullet's meaning, unless the
     `whole` file was written for Bullet.
     """
+    restore_instances(context)
     _attach_to_world(context)
     for limits in context.all("swing_cone_and_twist"):
         _angles(context, limits)
@@ -74,6 +76,7 @@ def apply(context: Context, *, whole: bool) -> None:
     for cylinder in context.all("cylinder"):
         if whole or _in_model(cylinder):
             _height(context, cylinder)
+    restore_primitives(context)
     _centre(context, whole=whole)
 
 
