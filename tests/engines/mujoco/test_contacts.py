@@ -200,9 +200,9 @@ def test_pairs_of_many_materials_cost_no_setup() -> None:
     assert bounced[590] > bounced[300] > bounced[10]
 
 
-def test_a_long_setup_is_announced() -> None:
+@pytest.mark.parametrize(("jointed", "count", "seconds"), [(False, 12_000, 7), (True, 6000, 9)])
+def test_a_long_setup_is_announced(jointed: bool, count: int, seconds: int) -> None:
     world = World((0, 0, -G), time_step=1 / 240)
-    count = 6000
     place = np.stack([np.arange(count) * 2.0, np.zeros(count), np.zeros(count)], axis=-1)
     world.extend(
         BodyColumns(
@@ -210,5 +210,7 @@ def test_a_long_setup_is_announced() -> None:
             dimensions=np.tile([0.5, 0, 0, 0], (count, 1)),
         )
     )  # fmt: skip
+    if jointed:
+        world.attach_ball_joint(world.bodies[0], world.bodies[1])
     said = [f.message for f in MujocoEngine().check(world) if f.code == "engine-setup"]
-    assert len(said) == 1 and "about 9 s" in said[0]
+    assert len(said) == 1 and f"about {seconds} s" in said[0]

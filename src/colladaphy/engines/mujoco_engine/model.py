@@ -17,6 +17,7 @@ from colladaphy.engines.frames import ORIGIN, Pose
 from colladaphy.engines.mujoco_engine.axes import Freedom, Hanging, hang
 from colladaphy.engines.mujoco_engine.contacts import Surfaces
 from colladaphy.engines.mujoco_engine.forest import Forest, plan
+from colladaphy.engines.mujoco_engine.freeing import add_free_joint, freed, is_quick
 from colladaphy.engines.mujoco_engine.inertia import inertias_of, principal
 from colladaphy.engines.mujoco_engine.loops import close
 from colladaphy.engines.mujoco_engine.settings import Chosen
@@ -37,6 +38,7 @@ _HARD = 2.0  # steps: the least that MuJoCo is stable with
 # MuJoCo's own guess grows with the square of the number of bodies.
 _MEMORY = 32 << 20
 _MEMORY_PER_SHAPE = 128 << 10
+_FEW = 100  # free bodies that MuJoCo compiles in no time
 _FAR = 1e10  # what MuJoCo takes for infinity
 
 
@@ -76,7 +78,7 @@ def build(world: World, chosen: Chosen) -> Model:
     builder.add_exclusions()
     spec.memory = _MEMORY + _MEMORY_PER_SHAPE * len(builder.geoms)
     try:
-        compiled = spec.compile()
+        compiled = _compiled(spec, builder.free, alone=is_quick(forest))
     except (ValueError, mujoco.FatalError) as error:
         raise refuse(LIBRARY, f"MuJoCo refuses the scene: {error}") from error
     numbers = {sid: int(builder.bodies[sid].id) for sid in forest.order}
@@ -89,6 +91,18 @@ def build(world: World, chosen: Chosen) -> Model:
     for driven, speed in builder.motors:
         motors[compiled.jnt_dofadr[driven.id]] = speed
     return Model(compiled, forest, builder.hangings, numbers, owners, surfaces, rows, motors)
+
+
+def _compiled(spec: Any, free: list[Any], *, alone: bool) -> Any:
+    """The model; `alone` if nothing but `free` moves."""
+    if alone and len(free) > _FEW:
+        try:
+            return freed(spec.compile(), np.array([body.id for body in free]))
+        except (ValueError, mujoco.FatalError):
+            pass  # the compiler can tell what is wrong
+    for body in free:
+        add_free_joint(body)
+    return spec.compile()
 
 
 def _solref(world: World, steps: float) -> list[float]:
@@ -139,6 +153,7 @@ class _Builder:
         self.slippery = not surfaces.table.dynamic.any()
         self.bodies: dict[int, Any] = {0: spec.worldbody}
         self.hangings: dict[int, Hanging] = {}
+        self.free: list[Any] = []  # bodies that have still to get their joints
         self.geoms: list[tuple[Any, int, int]] = []  # with system id and material
         self.motors: list[tuple[Any, float]] = []  # MuJoCo's joints and their speeds
         self.inertias = inertias_of(world)
@@ -158,10 +173,7 @@ class _Builder:
         link = self.forest.links.get(sid)
         if link is None:
             body = self._add_body(sid, self.spec.worldbody, ORIGIN)
-            free = body.add_joint()
-            free.type = mujoco.mjtJoint.mjJNT_FREE
-            free.name = f"free{sid}"
-            free.align = mujoco.mjtAlignFree.mjALIGNFREE_FALSE
+            self.free.append(body)
         else:
             joint = self.joints[link.joint]
             hanging = hang(joint, link)
