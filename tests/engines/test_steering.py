@@ -18,7 +18,7 @@ from colladaphy.engines import (
 )
 from colladaphy.engines.state import recorded_options
 from colladaphy.errors import EngineError
-from colladaphy.world import World, compare
+from colladaphy.world import World, compare, rotations
 
 
 def ball(empty: Any, **options: Any) -> World:
@@ -188,6 +188,71 @@ def test_contacts_of_a_summary_are_those_of_its_moment(engine: Engine, empty: An
     simulation.run(20)
     assert len(simulation.contacts()) != expected
     assert kept.contacts == expected == 1
+
+
+def test_energies_of_a_summary_are_those_of_its_moment(engine: Engine, empty: Any) -> None:
+    """They are computed late, of the bodies as they were."""
+    world = empty((0, 0, -10))
+    world.create_sphere(1, (0, 0, 3), 0.5, "ball", linear_velocity=(2, 0, 0))
+    mass, kept = world.body(1).mass, Simulation(world, engine).summary()
+    assert kept == Simulation(world, engine).summary()
+    world.body(1).linear_velocity = (0, 0, 9)
+    world.body(1).position = (0, 0, 99)
+    world.body(1).mass = 77.0
+    world.gravity = (0, 0, 0)
+    assert kept.kinetic_energy == pytest.approx(2 * mass)
+    assert kept.energy == pytest.approx(32 * mass)
+    assert kept.momentum == pytest.approx((2 * mass, 0, 0))
+    assert kept.angular_momentum == pytest.approx((0, 6 * mass, 0))
+    assert kept != Simulation(world, engine).summary()
+
+
+@pytest.mark.parametrize("planar", [True, False])
+def test_poses_between_steps_need_no_load(
+    planar: bool, engine: Engine, empty: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A body that is moved and turned by hand goes on from there, whatever else goes on."""
+    world = empty((0, 0, 0))
+    normal = np.array([0.0, 1.0, 0.0]) if planar else np.array([2.0, 1.0, -2.0]) / 3
+    ahead = np.cross(normal, (0.0, 0.0, 1.0))
+    start = [np.cross(normal, ahead) * 3 * i for i in range(3)]
+    for number, place in enumerate(start):
+        world.create_box(number, place, (1, 1, 1), "ball",
+                         orientation=rotations.between((0, 1, 0), normal))  # fmt: skip
+    box, other = world.bodies[0], world.bodies[1]
+    other.linear_velocity, other.angular_velocity = ahead, 2.0 * normal
+    loads = counting(engine, monkeypatch)
+    simulation = Simulation(world, engine)
+    turn = rotations.from_axis_angle(normal, 0.1)
+    for number in range(1, 41):
+        box.position = start[0] - 0.01 * number * ahead
+        box.orientation = rotations.multiply(turn, box.orientation)
+        given = box.orientation.copy()
+        simulation.run(3)
+        np.testing.assert_allclose(box.position, start[0] - 0.01 * number * ahead, atol=1e-12)
+        np.testing.assert_allclose(box.orientation, given, atol=1e-12)
+    assert len(loads) == 1
+    angle = rotations.from_axis_angle(normal, 2.0 * world.time)
+    facing = rotations.multiply(angle, rotations.between((0, 1, 0), normal))
+    np.testing.assert_allclose(np.abs(facing @ other.orientation), 1.0, atol=1e-9)
+    np.testing.assert_allclose(other.position, start[1] + world.time * ahead, atol=1e-9)
+    # It collides where it stands now.
+    box.position = other.position + 1.5 * ahead
+    simulation.run(240)
+    assert box.linear_velocity @ ahead > 0.1
+
+
+def test_a_pose_out_of_the_plane_is_refused(empty: Any) -> None:
+    world = empty((0, 0, -10))
+    for number in range(3):
+        world.create_sphere(number, (2 * number, 0, number**2), 0.5, "ball")
+    simulation = Simulation(world, "pymunk")
+    simulation.run(1)
+    world.bodies[0].position = (0, 1, 0)
+    with pytest.raises(EngineError, match="plane"):
+        simulation.run(1)
+    world.bodies[0].position = (0, 0, 0)
+    simulation.run(1)
 
 
 def test_a_steered_step_costs_about_a_free_one(engine: Engine, empty: Any) -> None:

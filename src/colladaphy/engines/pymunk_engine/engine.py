@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pymunk
+from numpy.typing import NDArray
 
 from colladaphy.engines.bounds import Bounds
 from colladaphy.engines.clock import Clock
@@ -20,6 +21,7 @@ from colladaphy.engines.protocol import Capabilities, Contact
 from colladaphy.engines.pymunk_engine.batches import Batch
 from colladaphy.engines.pymunk_engine.contacts import contacts_of
 from colladaphy.engines.pymunk_engine.links import Link, plan
+from colladaphy.engines.pymunk_engine.moving import Moved
 from colladaphy.engines.pymunk_engine.settings import PymunkOptions
 from colladaphy.engines.pymunk_engine.space import Model, build, let_joints_have_their_way
 from colladaphy.engines.rules import JOINT_LIMITS, JOINT_OVERLAP, PLANE_FINITE, SIZE
@@ -69,6 +71,7 @@ class PymunkEngine:
         self._batch = Batch(pymunk.Space(), [])
         self._latest: Any = np.zeros((0, 6))  # the state after the last step
         self._poses = self._speeds = (b"", b"")  # as the World and pymunk last agreed in
+        self._joined: frozenset[int] = frozenset()  # system ids
         self._stepped = False
 
     @property
@@ -102,7 +105,8 @@ class PymunkEngine:
         moving = ~world.fixed
         self._rows = run_of(np.flatnonzero(moving))
         self._heights = planarity.frame.height(world.positions[moving])
-        self._orientations = world.orientations[moving]
+        self._orientations = world.orientations[moving].copy()
+        self._joined = frozenset(sid for link in links for sid in (link.first, link.second))
         self._clock = clock
         self._stepped = False
 
@@ -154,12 +158,16 @@ class PymunkEngine:
         self._poses, self._speeds = _poses(world), _speeds(world)
 
     def steer(self, world: World) -> bool:
-        """See `Steerable.steer`. Poses need a load, as angles count from it."""
+        """See `Steerable.steer`. Poses of jointed bodies need a load, as joints begin there."""
         if self._model is None or self._plan is None or self._options.sleep:
             return False
-        if Clock.of(world) != self._clock or _poses(world) != self._poses:
+        if Clock.of(world) != self._clock:
             return False
         frame, model = self._plan.frame, self._model
+        poses = _poses(world)
+        moved = None if poses == self._poses else self._moved(world)
+        if moved is not None and not moved.fits:
+            return False
         rows, speeds = self._rows, _speeds(world)
         kicked = speeds != self._speeds  # or else they would be rounded
         linear, angular = world.linear_velocities[rows], world.angular_velocities[rows]
@@ -168,15 +176,35 @@ class PymunkEngine:
         if not stays_in_plane(frame, ahead, about):
             return False  # the load says so, and names the bodies
         if kicked:
-            flat, turns = frame.flat(linear).tolist(), frame.height(angular).tolist()
-            for body, velocity, spin in zip(model.bodies, flat, turns, strict=True):
-                body.velocity, body.angular_velocity = tuple(velocity), spin
+            for row in np.flatnonzero(self._kicked(world)[~world.fixed]).tolist():
+                body = model.bodies[row]
+                u, v = frame.flat(linear[row]).tolist()
+                body.velocity, body.angular_velocity = (u, v), float(frame.height(angular[row]))
             if links := _planned(world, self._plan):
                 let_joints_have_their_way(model, links)
+        if moved is not None:
+            moved.put(model)
+            self._heights[moved.rows] = moved.heights
+            self._poses, self._bounds = poses, Bounds.of(world, self._clock.time_step)
         self._speeds = speeds
         self._batch.push(frame.flat(forces), frame.height(torques))
         self._bounds = self._bounds.widened(world)
         return True
+
+    def _kicked(self, world: World) -> NDArray[np.bool_]:
+        """Which bodies have other velocities than when the World and pymunk agreed."""
+        now = world.linear_velocities, world.angular_velocities
+        before = (np.frombuffer(known).reshape(-1, 3) for known in self._speeds)
+        apart = [np.any(one != other, axis=1) for one, other in zip(now, before, strict=True)]
+        return np.asarray(apart[0] | apart[1])
+
+    def _moved(self, world: World) -> Moved:
+        """The bodies that were moved by hand since the World and pymunk agreed."""
+        assert self._plan is not None
+        before = [np.frombuffer(known).reshape(-1, width)
+                  for known, width in zip(self._poses, (3, 4), strict=True)]  # fmt: skip
+        loaded = self._heights, self._orientations
+        return Moved.of(world, self._plan, (before[0], before[1]), loaded, self._joined)
 
     def contacts(self) -> list[Contact]:
         """See `Engine.contacts`."""
