@@ -12,6 +12,7 @@ from colladaphy.conform.downgrade.rules import INVALID
 from colladaphy.errors import SchemaError
 from colladaphy.findings import Finding
 from colladaphy.gate.schema import schema_1_4
+from colladaphy.source.splitting import with_short_texts
 
 __all__ = ["TARGETS", "Target", "export"]
 
@@ -35,7 +36,7 @@ def export(tree: etree._ElementTree, target: Target) -> tuple[bytes, list[Findin
     errors = _errors(data)
     if errors:
         raise SchemaError(errors)
-    return data, findings
+    return with_short_texts(data), findings
 
 
 def _errors(data: bytes) -> list[Finding]:

@@ -16,6 +16,7 @@ from colladaphy.links.resource import Resource
 from colladaphy.mapper import WriteOptions, store
 from colladaphy.meaning import check
 from colladaphy.source import Archive, packed_for, save
+from colladaphy.source.splitting import with_short_texts
 from colladaphy.world import World
 
 __all__ = ["Output", "document_bytes", "write_document", "write_world"]
@@ -32,7 +33,7 @@ def document_bytes(resource: Resource) -> bytes:
     faults = gate(tree) or bad_numbers(tree, data=data)
     if faults:
         raise SchemaError(faults)
-    return data
+    return with_short_texts(data)
 
 
 def write_document(
@@ -53,7 +54,7 @@ def write_document(
 
 def write_world(world: World, target: Output, options: WriteOptions | None) -> None:
     """Write a World as a document of its own."""
-    _save(packed_for(target, store(world, options)), target)
+    _save(packed_for(target, with_short_texts(store(world, options))), target)
 
 
 def _save(data: bytes, target: Output) -> None:

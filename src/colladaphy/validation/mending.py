@@ -25,6 +25,7 @@ from colladaphy.source import (
     parse_loaded,
     save,
 )
+from colladaphy.source.splitting import with_short_texts
 from colladaphy.validation.companions import Render, companions_of
 
 if TYPE_CHECKING:
@@ -199,7 +200,8 @@ def _mended(parsed: Parsed) -> tuple[etree._ElementTree, bytes]:
 
 def serialise(tree: etree._ElementTree) -> bytes:
     """A tree as the bytes of a UTF-8 file."""
-    return etree.tostring(tree, encoding="UTF-8", xml_declaration=True) + b"\n"
+    data = etree.tostring(tree, encoding="UTF-8", xml_declaration=True) + b"\n"
+    return with_short_texts(data)
 
 
 def unified_diff(mended: Mended) -> Iterator[str]:
