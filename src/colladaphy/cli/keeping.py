@@ -53,7 +53,7 @@ def check_outputs(source: str, target: str | None, trajectory: str | None) -> No
     """Refuse, before the run and not after it, what could not be written."""
     if trajectory is not None:
         if Path(trajectory).suffix not in _TRAJECTORIES:
-            known = " or ".join(_TRAJECTORIES)
+            known = " nor ".join(_TRAJECTORIES)
             message = f"{trajectory!r} ends in neither {known}."
             raise click.BadParameter(message, param_hint="--trajectory")
         refuse_same("--trajectory", trajectory, [source, *([] if target is None else [target])])
