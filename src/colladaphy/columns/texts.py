@@ -85,6 +85,13 @@ class Ranges:
         starts = self.starts.astype(np.int64, copy=False)
         if not len(starts) or not longest:
             return words, lengths
+        if len(lengths) < longest >> 3:  # few long ones, which are copied as they are
+            letters, data = words.view(np.uint8), self.all_words.data
+            for row, (start, stop) in enumerate(
+                zip(starts.tolist(), self.stops.tolist(), strict=True)
+            ):
+                letters[row, : stop - start] = data[start:stop]
+            return words, lengths
         shortest = int(lengths.min())
         for place in range(0, longest, 8):
             word = self.all_words.at(starts + place if place else starts)
