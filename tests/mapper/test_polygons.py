@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from colladaphy.mapper.loading.closedness import are_closed
 from colladaphy.mapper.loading.ears import triangles_of
+from colladaphy.mapper.loading.polygons import _polylist, _with_holed
 
 Point = tuple[float, float]
 
@@ -160,3 +161,44 @@ def test_surfaces_are_closed_where_every_edge_is_passed_both_ways() -> None:
         (_CUBE, turned), (_CUBE, np.concatenate([_FACES[:8]])),
     ])  # fmt: skip
     assert found.tolist() == [True, False, True, False, False]
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(st.tuples(*[st.integers(-2, 2)] * 3), min_size=1, max_size=12),
+    st.lists(st.lists(st.integers(0, 12), max_size=7), max_size=8),
+    st.integers(0, 3),
+)
+def test_polygons_together_are_what_they_are_alone(
+    points: list[tuple[int, int, int]], rings: list[list[int]], cut: int
+) -> None:
+    """Of any size, turned any way, with corners that are not there, and with a list too short."""
+    places = np.array(points, np.float64)
+    lists = [np.array(ring, np.int64) for ring in rings]
+    alone = [_with_holed([ring], places) for ring in lists]
+    together = _with_holed(lists, places)
+    assert np.array_equal(together, np.concatenate([np.zeros((0, 3), np.int64), *alone]))
+    sizes = np.array([len(ring) for ring in lists], np.int64)
+    corners = np.concatenate([np.zeros(0, np.int64), *lists])
+    assert np.array_equal(_polylist([corners], sizes, places), together)
+    short = corners[: len(corners) - cut]
+    whole = int(np.searchsorted(np.cumsum(sizes), len(short), "right"))
+    kept = sum(len(part) for part in alone[:whole])
+    assert np.array_equal(_polylist([short], sizes, places)[:kept], together[:kept])
+    holed = np.array([(7, 8, 9)])
+    mixed = [part for ring in lists for part in (holed, ring)]
+    expected = [part for ring in alone for part in (holed, ring)]
+    assert np.array_equal(
+        _with_holed(mixed, places), np.concatenate([np.zeros((0, 3), np.int64), *expected])
+    )
+
+
+def test_many_quads_take_little_time() -> None:
+    count = 200_000
+    corners = np.arange(4 * count)
+    points = np.tile([(0.0, 0.0, 0.0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], (count, 1))
+    begin = time.perf_counter()
+    made = _polylist([corners], np.full(count, 4), points)
+    assert time.perf_counter() - begin < 5.0
+    assert made.shape == (2 * count, 3)
+    assert made[:2].tolist() == [[0, 1, 2], [0, 2, 3]]

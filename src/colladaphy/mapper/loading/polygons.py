@@ -52,9 +52,7 @@ def triangulated(rows: Any, name: str, points: list[Array]) -> list[Array]:
         elif name == "trifans":
             made.append(_joined([_fan(part) for part in corners]))
         else:
-            made.append(_joined([
-                part if part.ndim == 2 else _polygon(part, points[row]) for part in corners
-            ]))  # fmt: skip
+            made.append(_with_holed(corners, points[row]))
     return made
 
 
@@ -86,9 +84,19 @@ def _polylist(lists: list[Array], sizes: Array, points: Array) -> Array:
     sizes = counted(sizes)
     if len(sizes) and np.all(sizes == 3) and len(corners) == 3 * len(sizes):
         return np.asarray(corners.reshape(-1, 3))
-    ends = np.cumsum(sizes)
-    parts = [corners[end - size : end] for size, end in zip(sizes, ends, strict=True)]
-    return _joined([_polygon(part, points) for part in parts])
+    return _all_polygons(corners, sizes, points)
+
+
+def _with_holed(lists: list[Array], points: Array) -> Array:
+    """Outlines of polygons (one dimension) as triangles, between those that are (m, 3) already."""
+    plain = [part for part in lists if part.ndim == 1]
+    sizes = np.array([len(part) for part in plain], np.int64)
+    corners = np.concatenate(plain) if plain else np.zeros(0, np.int64)
+    made = _all_polygons(corners, sizes, points)
+    if len(plain) == len(lists):
+        return made
+    cut = iter(np.split(made, np.cumsum(np.maximum(sizes - 2, 0))))
+    return _joined([part if part.ndim == 2 else next(cut) for part in lists])
 
 
 def _joined(parts: list[Array]) -> Array:
@@ -108,17 +116,41 @@ def _strip(corners: Array) -> Array:
     return strip
 
 
-def _polygon(corners: Array, points: Array) -> Array:
-    """A polygon as triangles: a fan where it is convex, ears cut off where it is not."""
-    if len(corners) <= 3 or len(points) == 0 or corners.max(initial=0) >= len(points):
-        return _fan(corners)
-    ring = points[corners]
-    after = np.roll(ring, -1, axis=0)
-    normal = np.cross(ring, after).sum(axis=0)
-    turns = np.cross(after - ring, np.roll(after, -1, axis=0) - after) @ normal
-    if np.all(turns >= 0):
-        return _fan(corners)
-    return _with_holes(corners, [], points)
+def _all_polygons(corners: Array, sizes: Array, points: Array) -> Array:
+    """Polygons one after the other as triangles: fans where they are convex, else ears cut off.
+
+    All of one size are looked at together.
+    """
+    ends = np.cumsum(sizes)
+    starts = ends - sizes
+    sizes = np.maximum(np.minimum(ends, len(corners)) - starts, 0)  # of what is there
+    counts = np.maximum(sizes - 2, 0)
+    places = np.cumsum(counts) - counts
+    made = np.empty((int(counts.sum()), 3), np.int64)
+    for size in np.unique(sizes[sizes >= 3]).tolist():
+        rows = np.flatnonzero(sizes == size)
+        rings = corners[starts[rows][:, None] + np.arange(size)]
+        first = np.broadcast_to(rings[:, :1], (len(rows), size - 2))
+        fans = np.stack([first, rings[:, 1:-1], rings[:, 2:]], axis=2)
+        for row in _not_convex(rings, points).tolist():
+            fans[row] = _with_holes(rings[row], [], points)
+        made[places[rows][:, None] + np.arange(size - 2)] = fans
+    return made
+
+
+def _not_convex(rings: Array, points: Array) -> Array:
+    """The polygons (n, k) that turn both ways; none of what has corners that are not there."""
+    there = np.flatnonzero(rings.max(axis=1) < len(points))
+    if rings.shape[1] <= 3 or not len(there):
+        return np.zeros(0, np.int64)
+    ring = points[rings[there]]
+    after = np.roll(ring, -1, axis=1)
+    edge = after - ring
+    normal = np.cross(ring, after).sum(axis=1)[:, None]
+    turns = np.cross(edge, np.roll(edge, -1, axis=1)) * normal
+    # Summed up one by one, so that it is the same on every machine.
+    along = turns[..., 0] + turns[..., 1] + turns[..., 2]
+    return np.asarray(there[~np.all(along >= 0, axis=1)])
 
 
 def _with_holes(corners: Array, holes: list[Array], points: Array) -> Array:
