@@ -30,6 +30,9 @@ def free_ids(wanted: Sequence[int | None], taken: Iterable[int]) -> list[int]:
     Those that want none come after all others, in their own order.
     """
     used = set(taken)
+    ready = [sid for sid in wanted if sid is not None and sid > 0]
+    if len(ready) == len(wanted) and not used and len(set(ready)) == len(ready):
+        return ready
     given: list[int | None] = [None] * len(wanted)
     order = sorted(
         (place for place, sid in enumerate(wanted) if sid is not None),

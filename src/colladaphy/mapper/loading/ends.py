@@ -114,49 +114,49 @@ class Ends:
 
         Of ends at nodes of the world the poses (2 n) of these are given.
         """
-        kept: list[int] = []
-        bodies: list[tuple[int, int]] = []
-        nodes: list[tuple[int, int]] = []
         references = self._read.references
-        pairs = zip(constraints.tolist(), models.tolist(), strict=True)
-        for number, (row, model) in enumerate(pairs):
-            named = self._quick.get(model, _NONE)
-            first, second = references[2 * row : 2 * row + 2]
-            one = named.get(first) if first else -1
-            other = named.get(second) if second else -1
-            if one is not None and other is not None:
-                kept.append(number)
-                bodies.append((one, other))
-                nodes.append((-1, -1))
-                continue
-            ends: list[int] = []
-            stands: list[int] = []
-            try:
-                for side in (0, 1):
-                    reference = references[2 * row + side]
-                    body, node = -1, -1
-                    if reference:
-                        body, node = self._end(row, side, model, reference)
-                    ends.append(body)
-                    stands.append(node)
-            except ColladaError as error:
-                self._tables.resource.note_broken(error)
-                if is_unreachable(error):
-                    self._skip(row, references[2 * row + len(ends)])
-                continue
-            self._moved(model, ends, stands)
-            if -2 in ends:
-                self._skip(row, references[2 * row + ends.index(-2)])
-                continue
-            kept.append(number)
-            bodies.append((ends[0], ends[1]))
-            nodes.append((stands[0], stands[1]))
-        flat = np.array(nodes, np.int64).reshape(-1)
+        rows, around = constraints.tolist(), models.tolist()
+        sides = [
+            [named.get(reference) if (reference := references[2 * row + side]) else -1
+             for row, named in zip(rows, [self._quick.get(model, _NONE) for model in around],
+                                   strict=True)]
+            for side in (0, 1)
+        ]  # fmt: skip
+        kept = np.ones(len(rows), np.bool_)
+        nodes = np.full((len(rows), 2), -1, np.int64)
+        for number, quick in enumerate(zip(*sides, strict=True)):
+            if None in quick:
+                found = self._ends(rows[number], around[number])
+                kept[number] = found is not None
+                bodies, nodes[number] = found or ((-1, -1), (-1, -1))
+                sides[0][number], sides[1][number] = bodies
+        flat = nodes[kept].reshape(-1)
         places = Poses.none(len(flat))
         there = np.flatnonzero(flat >= 0)
         if len(there):
             places.put(there, self._tables.placement.poses(flat[there])[0])
-        return np.array(kept, np.int64), np.array(bodies, np.int64).reshape(-1, 2), places
+        return np.flatnonzero(kept), np.array(sides, np.int64).T[kept], places
+
+    def _ends(self, row: int, model: int) -> tuple[tuple[int, ...], tuple[int, ...]] | None:
+        """The bodies at the ends, -1 for the world, and the nodes there; None where it is lost."""
+        references = self._read.references[2 * row : 2 * row + 2]
+        ends: list[int] = []
+        stands: list[int] = []
+        try:
+            for side, reference in enumerate(references):
+                body, node = self._end(row, side, model, reference) if reference else (-1, -1)
+                ends.append(body)
+                stands.append(node)
+        except ColladaError as error:
+            self._tables.resource.note_broken(error)
+            if is_unreachable(error):
+                self._skip(row, references[len(ends)])
+            return None
+        self._moved(model, ends, stands)
+        if -2 in ends:
+            self._skip(row, references[ends.index(-2)])
+            return None
+        return tuple(ends), tuple(stands)
 
     def _moved(self, model: int, ends: list[int], stands: list[int]) -> None:
         """A node means the body that it moves, unless the other end is that body itself.

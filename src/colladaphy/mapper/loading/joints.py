@@ -170,15 +170,15 @@ class _Joints:
     def _identities(self) -> tuple[Array, Array, list[str | None]]:
         read, rows = self._read, self._rows
         sids, names = self._tables.constraints.texts("sid"), self._tables.constraints.texts("name")
+        for row in rows[read.large[rows]].tolist():
+            self._note_large(row)
         wanted: list[int | None] = []
         kept_names: list[str | None] = []
-        for row in rows.tolist():
+        columns = (column[rows].tolist() for column in (read.kept, read.kept_sids))
+        for row, kept, explicit in zip(rows.tolist(), *columns, strict=True):
             name = names[row]
             sid: int | None = None
-            if read.large[row]:
-                self._note_large(row)
-            if read.kept[row]:
-                explicit = int(read.kept_sids[row])
+            if kept:
                 sid = system_id(sids[row] or "", "Joint") if explicit == -1 else explicit
                 exact = read.kept_names[row]
                 if exact is not None and same_token(exact, name):
