@@ -86,7 +86,8 @@ class Index:
         ends = np.cumsum(self.quotes, dtype=np.int64)
         self.first_quote = (ends - self.quotes).astype(offset)
         self._by_code: dict[int, Array] = {}
-        self.scratch = np.zeros(len(self.start), dtype=np.int32)
+        self.scratch = np.full(len(self.start), -1, dtype=np.int32)
+        """A number for each element, -1 whenever nobody is at work with it."""
 
     def __len__(self) -> int:
         return len(self.start)

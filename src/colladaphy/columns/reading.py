@@ -249,9 +249,8 @@ class Document:
         scratch = self.index.scratch
         scratch[mine] = np.arange(len(mine), dtype=np.int32)
         owner = scratch[parents]
-        here = np.flatnonzero(
-            (owner < len(mine)) & (mine[np.minimum(owner, len(mine) - 1)] == parents)
-        )
+        scratch[mine] = -1
+        here = np.flatnonzero(owner >= 0)
         owner = owner[here]
         if len(here) != len(found):
             found = found[here]

@@ -18,7 +18,7 @@ from colladaphy.links import rules
 from colladaphy.links.affine import stretch_of
 from colladaphy.links.names import c
 from colladaphy.links.pool import Pool, Table
-from colladaphy.links.poses import Poses
+from colladaphy.links.poses import Poses, reach
 from colladaphy.links.resource import Resource
 from colladaphy.links.steps import Transforms, matrix_of, own_transforms, product, rigid_parts
 from colladaphy_schema.document_columns import ColladaSceneRows
@@ -154,7 +154,7 @@ class Placement:
         if not np.any(above >= 0):
             return sums
         poses, affine, matrices = self.frames()
-        places = np.abs(poses.positions).max(axis=1)
+        places = reach(poses.positions)
         for row in np.flatnonzero(affine).tolist():
             places[row] = np.abs(matrices[row][:3, 3]).max()
         for rows in self.levels()[1:]:
@@ -345,10 +345,10 @@ def _own(nodes: NodeTypeRows, home: int, start: int) -> OwnTransforms:
         steps += np.bincount(getattr(nodes, name).owner, minlength=len(nodes))
     translate, rotate = nodes.translate, nodes.rotate
     if len(rows):
-        sizes[rows] = np.abs(matrices[:, :3, 3]).max(axis=1)
+        sizes[rows] = reach(matrices[:, :3, 3])
         steps[rows] += 1
     if len(translate):
-        np.add.at(sizes, translate.owner, np.abs(translate.value).max(axis=1))
+        np.add.at(sizes, translate.owner, reach(translate.value))
         first, second = (np.full(len(nodes), -1, np.int64) for _ in range(2))
         assert translate.ordinals is not None and rotate.ordinals is not None
         first[translate.owner], second[rotate.owner] = translate.ordinals, rotate.ordinals

@@ -289,7 +289,7 @@ def taken(record: T, rows: Array) -> T:
         if isinstance(column, list):
             values[field.name] = [column[row] for row in rows.tolist()]
         elif isinstance(column, np.ndarray):
-            values[field.name] = column[rows]
+            values[field.name] = column.take(rows, axis=0)
         else:
             values[field.name] = column.take(rows)
     return type(record)(**values)

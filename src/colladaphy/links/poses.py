@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any, Final
 
 import numpy as np
@@ -20,6 +21,7 @@ __all__ = [
     "Poses",
     "quaternion_product",
     "quaternions_of_turns",
+    "reach",
     "rotate_vectors",
     "unit_quaternions",
 ]
@@ -192,10 +194,16 @@ def rotate_vectors(q: Floats, v: Floats) -> Floats:
     return made
 
 
+def reach(vectors: Array) -> Floats:
+    """The largest magnitude (n,) of the numbers of each vector (n, m); not a number if any is."""
+    # By columns, as numpy takes a call for each row of few numbers.
+    return np.asarray(reduce(np.maximum, np.abs(vectors).T))
+
+
 def unit_quaternions(q: Floats) -> Floats:
     """The quaternions (n, 4) at length one; one of no length is no rotation."""
     with np.errstate(all="ignore"):
-        largest = np.max(np.abs(q), axis=1) if len(q) else np.zeros(0)
+        largest = reach(q)
         usable = (largest > 0.0) & (largest < np.inf)
         scaled = q / largest[:, None]
         w, x, y, z = scaled.T
@@ -216,7 +224,7 @@ def quaternions_of_turns(turns: Floats) -> tuple[Floats, Bools]:
         far = usable & ~((length > 1e-150) & (length < 1e150))
         axes = turns[:, :3]
         if far.any():
-            largest = np.max(np.abs(axes), axis=1)
+            largest = reach(axes)
             usable &= ~far | ((largest > 0.0) & (largest < np.inf))
             axes = axes.copy()
             axes[far] /= largest[far, None]

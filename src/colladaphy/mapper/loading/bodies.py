@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from colladaphy.links.nodes import Sums
 from colladaphy.links.pool import concatenated, taken
-from colladaphy.links.poses import Poses, rotate_vectors, unit_quaternions
+from colladaphy.links.poses import Poses, reach, rotate_vectors, unit_quaternions
 from colladaphy.mapper import rules
 from colladaphy.mapper.loading.deciding import Deciding, Prefer
 from colladaphy.mapper.loading.found import FoundBodies
@@ -396,7 +396,7 @@ class _Loading:
     def _sums(self, origin: Poses) -> Sums:
         """What the poses of bodies at `origin` in their rigid_bodies are made of."""
         sums = self._found.reach(self._tables)
-        sums.sizes += np.abs(origin.positions).max(axis=1)
+        sums.sizes += reach(origin.positions)
         sums.steps += ~origin.is_identity()
         return sums
 
@@ -470,9 +470,7 @@ def _off_center(
     if len(mine):
         member = rows[mine]
         centers = members.poses.positions[member]
-        size = np.maximum(
-            np.abs(members.dimensions[member]).max(axis=1), np.abs(centers).max(axis=1)
-        )
+        size = np.maximum(reach(members.dimensions[member]), reach(centers))
         size = np.maximum(size, members.reach(member, world, centered=True))
         apart = values.frames.positions[bodies[mine]] - centers
         off[mine] = np.sqrt(np.sum(apart * apart, axis=1)) > 1e-6 * size

@@ -12,7 +12,7 @@ from colladaphy.errors import DocumentError
 from colladaphy.links import rules as link_rules
 from colladaphy.links.nodes import Sums
 from colladaphy.links.pool import Table, is_unreachable
-from colladaphy.links.poses import Poses
+from colladaphy.links.poses import Poses, reach
 from colladaphy.mapper.loading.instances import Expansion
 from colladaphy.mapper.loading.tables import Tables
 
@@ -59,7 +59,7 @@ class FoundBodies:
         if len(parents):
             outer, _ = tables.placement.poses(parents)
             around = nodes.take(parents)
-            around.sizes += np.abs(outer.positions).max(axis=1)
+            around.sizes += reach(outer.positions)
             around.steps += 1
             while np.any(chains >= 0):
                 here = around.take(chains)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from colladaphy.errors import WorldError
 from colladaphy.links import rules as link_rules
-from colladaphy.links.poses import Poses
+from colladaphy.links.poses import Poses, reach
 from colladaphy.mapper import rules
 from colladaphy.mapper.loading.bodies import LoadedBodies
 from colladaphy.mapper.loading.constraints import Constraints, read_constraints
@@ -230,7 +230,7 @@ class _Joints:
         same = self._sameness.turn(joints, one.orientations, other.orientations)
         finite = np.isfinite(np.column_stack([one.positions, other.positions])).all(axis=1)
         level = np.flatnonzero(finite & same)
-        extent = np.abs(outer.positions).max(axis=1)
+        extent = reach(outer.positions)
         same[level] = self._sameness.whole(
             joints[level], one.positions[level], other.positions[level], extent[level]
         )

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.links.poses import unit_quaternions
+from colladaphy.links.poses import reach, unit_quaternions
 from colladaphy.links.resource import Resource
 
 __all__ = ["Sameness", "significant_digits", "tolerance_of"]
@@ -93,8 +93,8 @@ class Sameness:
         `extent` (n,) is the size of other numbers that took part in it.
         """
         one, other = _by_row(one, len(rows)), _by_row(other, len(rows))
-        both = np.abs(np.concatenate([one, other], axis=1))
-        size = np.where(np.isfinite(both), both, 0.0).max(axis=1, initial=0.0)
+        both = np.concatenate([one, other], axis=1)
+        size = reach(np.where(np.isfinite(both), both, 0.0))
         scale = 4.0 * np.maximum(size, extent)
         return self._decided(rows, lambda tolerance, mine: _same(
             one[mine], other[mine], tolerance, scale[mine]).all(axis=1))  # fmt: skip

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.links.pool import concatenated, expanded
-from colladaphy.links.poses import Poses, unit_quaternions
+from colladaphy.links.poses import Poses, reach, unit_quaternions
 from colladaphy.mapper import rules
 from colladaphy.mapper.loading.deciding import Deciding
 from colladaphy.mapper.loading.found import FoundBodies
@@ -168,7 +168,7 @@ class Unions:
                         moved=own.moved, turned=own.turned)  # fmt: skip
         where = outer.then(unit)
         # A plane through the origin tells nothing of how far away it was made.
-        away = np.abs(where.positions).max(axis=1, initial=0.0)
+        away = reach(where.positions)
         extents = np.maximum(extents, np.where(np.isfinite(away), away, 0.0))
         kinds, dimensions, _ = deciding.dimensions(
             self._rows[rows], self._members, described, extents, planes_at(where), self._world
@@ -236,7 +236,7 @@ class Unions:
         ]))  # fmt: skip
         sizes[~np.isfinite(sizes)] = 0.0
         extents = np.zeros(len(self._bodies))
-        np.maximum.at(extents, self._owner, sizes.max(axis=1, initial=0.0))
+        np.maximum.at(extents, self._owner, reach(sizes))
         return extents
 
     # --- everything together
