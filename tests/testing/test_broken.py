@@ -19,6 +19,8 @@ from colladaphy.validation.tellers import tellers
 
 EXAMPLES = max(2, settings().max_examples // 20)
 few = settings(max_examples=EXAMPLES, suppress_health_check=list(HealthCheck), deadline=None)
+HEAVY = ("archives", "width")
+"""Hostile by their size: each takes seconds."""
 
 NOT_IN_DOCUMENTS = {
     "io-folder": "of a path",
@@ -90,7 +92,7 @@ def test_unknown_names_are_refused() -> None:
 def test_hostile_inputs_are_taken_or_refused(kind: str) -> None:
     refused = 0
 
-    @settings(few, max_examples=max(8, EXAMPLES))
+    @settings(few, max_examples=max(3 if kind in HEAVY else 8, EXAMPLES))
     @given(hostile_inputs(kind))
     def run(data: bytes) -> None:
         nonlocal refused

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import mujoco
@@ -17,6 +15,7 @@ from colladaphy.engines.mujoco_engine import memory, refusals
 from colladaphy.engines.mujoco_engine.contacts import Touches
 from colladaphy.engines.mujoco_engine.model import Model, build
 from colladaphy.engines.mujoco_engine.motion import Motion
+from colladaphy.engines.mujoco_engine.quiet import quiet
 from colladaphy.engines.mujoco_engine.settings import MujocoOptions, resolve
 from colladaphy.engines.mujoco_engine.stepping import Stepper
 from colladaphy.engines.options import Value
@@ -92,7 +91,7 @@ class MujocoEngine:
             errors = [f for f in self.check(world) if f.severity is Severity.ERROR]
             if errors:
                 raise EngineError(errors)
-            with _quiet():
+            with quiet():
                 chosen = resolve(self._options, world)
                 model = self._model = build(world, chosen)
             self._motion = Motion(world, model)
@@ -108,7 +107,7 @@ class MujocoEngine:
         self._bounds = Bounds.of(world, clock.time_step)
         own = unpack(world, self.name, self.version, self.options).data
         self.notices = []
-        with _quiet():
+        with quiet():
             if own is None or not memory.recall(compiled, self._data, own):
                 self._motion.put(world, self._data)
                 self.notices = list(refusals.overlaps(world, self._model, self._data))
@@ -120,7 +119,7 @@ class MujocoEngine:
         if count < 1:
             return
         try:
-            with _quiet():
+            with quiet():
                 self._advance(count)
         except mujoco.FatalError as error:
             raise refuse(LIBRARY, f"MuJoCo gives up: {error}") from error
@@ -162,7 +161,7 @@ class MujocoEngine:
         assert self._motion is not None
         motion, rows = self._motion, self._motion.rows
         if self._stepped:
-            with _quiet():
+            with quiet():
                 motion.take(world, self._data)
             world.forces[rows] = 0.0
             world.torques[rows] = 0.0
@@ -178,7 +177,7 @@ class MujocoEngine:
             return False
         given = motion.columns(world)
         if any(changed(one, other) for one, other in zip(given, self._given, strict=True)):
-            with _quiet():
+            with quiet():
                 motion.put(world, self._data)
         self._given = given
         self._push(world)
@@ -199,15 +198,3 @@ class MujocoEngine:
         assert self._stepper is not None
         touches = self._stepper.touches or Touches.of(self._data)
         return touches.listed(self._model.geom_sids, self._clock.time_step)
-
-
-@contextmanager
-def _quiet() -> Iterator[None]:
-    """What diverges is looked up in MuJoCo's data; it need not be told in other ways as well."""
-    before = mujoco.get_mju_user_warning()
-    mujoco.set_mju_user_warning(lambda _: None)
-    try:
-        with np.errstate(all="ignore"):
-            yield
-    finally:
-        mujoco.set_mju_user_warning(before)

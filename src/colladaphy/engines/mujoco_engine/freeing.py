@@ -18,6 +18,8 @@ import numpy as np
 from mujoco.introspect import structs
 from numpy.typing import NDArray
 
+from colladaphy.engines.mujoco_engine.quiet import quiet
+
 if TYPE_CHECKING:
     from colladaphy.engines.mujoco_engine.forest import Forest
 
@@ -115,8 +117,9 @@ def differing(one: Any, other: Any) -> list[str]:
 def can_free() -> bool:
     """Whether this version of MuJoCo's models are as `freed` takes them to be."""
     try:
-        held, free = (_sample(joined=joined).compile() for joined in (False, True))
-        return not differing(freed(held, np.arange(2, held.nbody)), free)
+        with quiet():
+            held, free = (_sample(joined=joined).compile() for joined in (False, True))
+            return not differing(freed(held, np.arange(2, held.nbody)), free)
     except (AttributeError, KeyError, IndexError, TypeError, ValueError, mujoco.FatalError):
         return False
 
