@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from typing import Any
 
 import numpy as np
 import pytest
@@ -202,3 +203,67 @@ def test_many_quads_take_little_time() -> None:
     assert time.perf_counter() - begin < 5.0
     assert made.shape == (2 * count, 3)
     assert made[:2].tolist() == [[0, 1, 2], [0, 2, 3]]
+
+
+_HOLES: dict[str, list[Point]] = {
+    "square": [(-1, -1), (1, -1), (1, 1), (-1, 1)],
+    "diamond": [(-1, 0), (0, -1), (1, 0), (0, 1)],
+    "left": [(-1, -1), (1, 0), (-1, 1)],
+    "right": [(1, -1), (-1, 0), (1, 1)],
+    "straight": [(-1, -1), (0, -1), (1, -1), (1, 0), (1, 1), (0, 1), (0, 0), (-1, 0)],
+}
+_cells = st.tuples(st.sampled_from(sorted(_HOLES)), st.booleans(), st.booleans())
+
+
+def aligned(size: int, cells: dict[tuple[int, int], tuple[str, bool, bool]], notched: bool) -> Any:
+    """A square with holes whose corners are in line with each other, and touch its notches."""
+    far, half = 4 * size, 2 * size
+    outline: list[Point] = [(0, 0), (far, 0), (far, far), (0, far)]
+    if notched:
+        outline = [(0, 0), (half, 0), (half, 1), (half + 1, 1), (half + 1, 0), (far, 0), (far, far),
+                   (half, far), (half, far - 1), (half - 1, far - 1), (half - 1, far),
+                   (0, far)]  # fmt: skip
+    holes = []
+    for (x, y), (name, wide, turned) in cells.items():
+        wider = 1 if wide and x < size - 1 else 0
+        hole = [(4 * x + 2 + dx + wider * (dx > 0), 4 * y + 2 + dy) for dx, dy in _HOLES[name]]
+        holes.append(hole[::-1] if turned else hole)
+    return outline, holes
+
+
+@settings(max_examples=150, deadline=None)
+@given(
+    st.integers(2, 6).map(lambda half: 2 * half),
+    st.dictionaries(st.tuples(st.integers(0, 3), st.integers(0, 3)), _cells, max_size=14),
+    st.booleans(),
+)
+@example(4, {(2, 0): ("square", False, False)}, True)
+@example(4, {(1, 3): ("left", True, False)}, True)
+@example(6, {(0, 2): ("diamond", True, False), (0, 0): ("right", True, False)}, False)
+def test_holes_in_line_leave_nothing_covered_twice(
+    size: int, cells: dict[tuple[int, int], tuple[str, bool, bool]], notched: bool
+) -> None:
+    outline, holes = aligned(size, cells, notched)
+    points = [*outline, *(point for hole in holes for point in hole)]
+    parts = [area([points[at] for at in triangle]) for triangle in triangles_of(outline, holes)]
+    assert min(parts) >= 0.0  # these are whole numbers and halves: without any rounding
+    assert sum(parts) == area(outline) - sum(abs(area(hole)) for hole in holes)
+    assert len(parts) == len(points) - 2 + 2 * len(holes)
+
+
+def test_many_holes_take_little_time() -> None:
+    count = 40
+    outline, holes = aligned(
+        count, {(x, y): ("square", False, False) for x in range(count) for y in range(count)}, False
+    )
+    begin = time.perf_counter()
+    made = triangles_of(outline, holes)
+    assert time.perf_counter() - begin < 5.0
+    assert len(made) == 4 + 4 * count**2 - 2 + 2 * count**2
+
+
+def test_a_hole_outside_takes_nothing_away() -> None:
+    outline: list[Point] = [(0, 0), (4, 0), (4, 4), (0, 4)]
+    outside: list[Point] = [(5, 1), (6, 1), (6, 2)]
+    parts = triangles_of(outline, [outside])
+    assert len(parts) == 2

@@ -2,21 +2,19 @@
 
 A corner is an ear where the polygon turns left and no other corner lies in its triangle; only
 corners that turn right can. They are sorted by both axes, so that few of them are looked at for
-each ear. Holes are joined to the outline first, by a bridge there and back.
+each ear. Holes are joined to the outline first, by a bridge there and back (`bridges`).
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from colladaphy.links.sums import exact_sum
+from colladaphy.mapper.loading.bridges import Point, turn_of, with_bridges
 
 __all__ = ["triangles_of"]
-
-Point = tuple[float, float]
 
 _FEW = 24
 """Corners that are looked at one by one in less time than it takes to sort them."""
@@ -41,10 +39,8 @@ def triangles_of(outline: Sequence[Point], holes: Sequence[Sequence[Point]]) -> 
             corners.reverse()
         if len(corners) > 2:
             inner.append(corners)
-    # The rightmost hole first, so that its bridge cannot cross another one.
-    inner.sort(key=lambda corners: -max(points[at][0] for at in corners))
-    for corners in inner:
-        ring = _joined(ring, corners, points)
+    if inner:
+        ring = with_bridges(ring, inner, points)
     triangles = _Cutting(ring, points).triangles()
     return [triangle[::-1] for triangle in triangles] if flipped else triangles
 
@@ -55,62 +51,6 @@ def _area(ring: Sequence[Point]) -> float:
         one[0] * two[1] - one[1] * two[0]
         for one, two in zip(ring, [*ring[1:], *ring[:1]], strict=True)
     )
-
-
-def _turn(one: Point, two: Point, three: Point) -> float:
-    """Positive for a turn to the left."""
-    return (two[0] - one[0]) * (three[1] - two[1]) - (two[1] - one[1]) * (three[0] - two[0])
-
-
-def _joined(ring: list[int], hole: list[int], points: list[Point]) -> list[int]:
-    """The ring with a hole that is reached by a bridge from the nearest corner that sees it.
-
-    To the right of the hole's rightmost corner, the first edge is met; its farther end is seen,
-    unless a corner that turns right stands in between: then the one in the flattest direction.
-    """
-    first = max(range(len(hole)), key=lambda at: points[hole[at]])
-    x, y = points[hole[first]]
-    best, best_x = -1, math.inf
-    for at, corner in enumerate(ring):
-        one, two = points[corner], points[ring[(at + 1) % len(ring)]]
-        if not (one[1] <= y <= two[1] and one[1] < two[1]):
-            continue  # what bounds the inside on its right goes upward
-        meets = one[0] + (y - one[1]) * (two[0] - one[0]) / (two[1] - one[1])
-        if x <= meets < best_x:
-            best_x = meets
-            best = at if one[0] > two[0] else (at + 1) % len(ring)
-    if best < 0:
-        return ring  # a hole outside of the outline takes nothing away
-    tip = points[ring[best]]
-    if not _sees(ring, best, points, (x, y)):
-        # Bridges pass their ends several times; only between two of them the hole is seen.
-        seeing = (at for at, corner in enumerate(ring)
-                  if points[corner] == tip and _sees(ring, at, points, (x, y)))  # fmt: skip
-        best = next(seeing, best)
-    flattest = abs(tip[1] - y) / max(tip[0] - x, 1e-300)
-    for at, corner in enumerate(ring):
-        px, py = points[corner]
-        if px <= x or (px, py) == tip or not _is_within((px, py), (x, y), (best_x, y), tip):
-            continue
-        slope = abs(py - y) / (px - x)
-        if slope < flattest and _sees(ring, at, points, (x, y)):
-            best, flattest = at, slope
-    turned = hole[first:] + hole[:first]
-    return [*ring[: best + 1], *turned, turned[0], *ring[best:]]
-
-
-def _sees(ring: list[int], at: int, points: list[Point], target: Point) -> bool:
-    """Whether a point lies inside of the corner of a ring, as it leaves the corner."""
-    before, here, after = (points[ring[(at + step) % len(ring)]] for step in (-1, 0, 1))
-    if _turn(before, here, after) > 0.0:
-        return _turn(before, here, target) > 0.0 and _turn(here, after, target) > 0.0
-    return _turn(before, here, target) > 0.0 or _turn(here, after, target) > 0.0
-
-
-def _is_within(point: Point, one: Point, two: Point, three: Point) -> bool:
-    """Whether a point is in a triangle of either winding, its edges included."""
-    sides = (_turn(one, two, point), _turn(two, three, point), _turn(three, one, point))
-    return min(sides) >= 0.0 or max(sides) <= 0.0
 
 
 class _Cutting:
@@ -124,8 +64,10 @@ class _Cutting:
         self._after = [(at + 1) % count for at in range(count)]
         self._blocking = {at for at in range(count) if not self._turns_left(at)}
         """The corners that do not turn left: no others can lie in the triangle of an ear."""
-        self._hopeful = bytearray(at not in self._blocking for at in range(count))
+        self._hopeful = bytearray(map(self._may_be_ear, range(count)))
         """Corners that may be ears; of the others it is known what keeps them from being one."""
+        self._spikes = [at for at in sorted(self._blocking) if self._is_spike(at)]
+        """Corners that go before any ear, so that none is cut across them."""
         self._waiting: dict[int, list[int]] = {}
         """The corners that each keeps from being ears."""
         self._sorted: _Blocking | None = None
@@ -143,7 +85,18 @@ class _Cutting:
         return points[self._before[at]], points[at], points[self._after[at]]
 
     def _turns_left(self, at: int) -> bool:
-        return _turn(*self._corner(at)) > 0.0
+        return turn_of(*self._corner(at)) > 0.0
+
+    def _is_spike(self, at: int) -> bool:
+        """Whether the ring turns back at a corner, or stays where it is: that can go at once."""
+        one, two, three = self._corner(at)
+        if turn_of(one, two, three) != 0.0:
+            return False
+        there, back = (two[0] - one[0], two[1] - one[1]), (three[0] - two[0], three[1] - two[1])
+        return there[0] * back[0] + there[1] * back[1] <= 0.0
+
+    def _may_be_ear(self, at: int) -> bool:
+        return self._after[at] >= 0 and at not in self._blocking
 
     def _forget(self, at: int) -> None:
         """A corner blocks no more: those that it kept from being ears may be some now."""
@@ -151,7 +104,7 @@ class _Cutting:
             return
         self._blocking.discard(at)
         for other in self._waiting.pop(at, ()):
-            self._hopeful[other] = self._after[other] >= 0 and other not in self._blocking
+            self._hopeful[other] = self._may_be_ear(other)
         if at in self._unsorted:
             self._unsorted.discard(at)
         elif self._sorted is not None:
@@ -165,7 +118,15 @@ class _Cutting:
         self._hopeful[at] = turns_left
         if turns_left:
             self._forget(at)
-        elif at not in self._blocking:
+            return
+        if self._is_spike(at):
+            self._spikes.append(at)
+        if at in self._blocking:
+            # It may leave ears whose tip it comes by in another direction now.
+            for other in self._waiting.get(at, ()):
+                if self._points[other] == self._points[at]:
+                    self._hopeful[other] = self._may_be_ear(other)
+        else:
             # Straight on, or a turn by rounding, or the ring crosses itself.
             self._blocking.add(at)
             self._unsorted.add(at)
@@ -192,10 +153,14 @@ class _Cutting:
         return made
 
     def _next_ear(self, start: int) -> int:
-        """The first ear from a corner on; that corner itself where there is none.
+        """A spike, or the first ear from a corner on; that corner itself where there is none.
 
         A ring that crosses itself may have no ear: then any corner has to do.
         """
+        while self._spikes:
+            at = self._spikes.pop()
+            if self._after[at] >= 0 and self._is_spike(at):
+                return at
         at = start
         while (at := self._hopeful.find(1, at)) >= 0 or (at := self._hopeful.find(1)) >= 0:
             blocker = self._blocker(at)
@@ -211,16 +176,24 @@ class _Cutting:
         for other in self._unsorted:
             if self._blocks(other, *corner):
                 return other
-        return -1 if self._sorted is None else self._sorted.blocker(corner)
+        return -1 if self._sorted is None else self._sorted.blocker(corner, self._passes)
 
     def _blocks(self, other: int, one: Point, two: Point, three: Point) -> bool:
         point = self._points[other]
         if point in (one, two, three):
-            return False
+            return point == two and self._passes(other, one, two, three)
         return (
-            _turn(one, two, point) >= 0.0
-            and _turn(two, three, point) >= 0.0
-            and _turn(three, one, point) >= 0.0
+            turn_of(one, two, point) >= 0.0
+            and turn_of(two, three, point) >= 0.0
+            and turn_of(three, one, point) >= 0.0
+        )
+
+    def _passes(self, other: int, one: Point, two: Point, three: Point) -> bool:
+        """Whether the ring comes by the tip of an ear once more, and leaves it into the ear."""
+        return any(
+            turn_of(one, two, self._points[at]) > 0.0
+            and turn_of(two, three, self._points[at]) > 0.0
+            for at in (self._before[other], self._after[other])
         )
 
 
@@ -245,8 +218,12 @@ class _Blocking:
         for there, at in zip(self._there, self._at, strict=True):
             there[at[corner]] = False
 
-    def blocker(self, corner: tuple[Point, Point, Point]) -> int:
-        """One that lies in a triangle, its edges included, but not at a corner; -1 for none."""
+    def blocker(
+        self,
+        corner: tuple[Point, Point, Point],
+        passes: Callable[[int, Point, Point, Point], bool],
+    ) -> int:
+        """One that lies in a triangle, its edges included, or `passes` its tip; -1 for none."""
         spans = []
         for axis in (0, 1):
             ends = corner[0][axis], corner[1][axis], corner[2][axis]
@@ -263,6 +240,7 @@ class _Blocking:
         inside &= (cx - bx) * (y - cy) - (cy - by) * (x - cx) >= 0.0
         inside &= (ax - cx) * (y - ay) - (ay - cy) * (x - ax) >= 0.0
         for at in np.flatnonzero(inside).tolist():
-            if (float(x[at]), float(y[at])) not in corner:
-                return int(self._corners[axis][begin + at])
+            point, number = (float(x[at]), float(y[at])), int(self._corners[axis][begin + at])
+            if point not in corner or (point == corner[1] and passes(number, *corner)):
+                return number
         return -1
