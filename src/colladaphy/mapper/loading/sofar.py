@@ -6,8 +6,9 @@ joints, reach into another model, they wait until that one is loaded into the sa
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+import itertools
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -29,23 +30,29 @@ Key = tuple[str | None, int]
 _WAITING = {rules.CONSTRAINT_SKIPPED.code, rules.JOINT_UNMAPPED.code, rules.ROBOT_EMPTY.code}
 
 
-@dataclass(slots=True)
 class Sofar:
     """What a World has of one document."""
 
-    bodies: dict[Key, list[int]] = field(default_factory=dict)
-    """System ids in the World of the bodies of each instance of a model, in their order."""
-    is_waiting: bool = False
-    """Whether joints were left out for want of a body."""
+    def __init__(self) -> None:
+        self.is_waiting = False
+        """Whether joints were left out for want of a body."""
+        self._bodies: dict[Key, list[int]] = {}
+        self._added: list[tuple[_Owned, Sequence[Key], dict[int, int] | None]] = []
 
     def add(self, loaded: Loaded, models: Sequence[Key], ids: dict[int, int] | None) -> None:
         """Remember the bodies of models; `ids` are those in the World, where they are others."""
-        owners, sids = _owners(loaded)
-        for place, key in enumerate(models):
-            if key in self.bodies:
-                continue
-            mine = sids[owners == place].tolist()
-            self.bodies[key] = mine if ids is None else [ids.get(sid, 0) for sid in mine]
+        self._added.append((_Owned.of(loaded), models, ids))
+
+    @property
+    def bodies(self) -> dict[Key, list[int]]:
+        """System ids in the World of the bodies of each instance of a model, in their order."""
+        # Few documents are loaded model by model: the others need not be sorted out.
+        for owned, models, ids in self._added:
+            for key, mine in zip(models, owned.by_place(len(models)), strict=True):
+                here = mine if ids is None else [ids.get(sid, 0) for sid in mine]
+                self._bodies.setdefault(key, here)
+        self._added.clear()
+        return self._bodies
 
 
 def key_of(model: tuple[Resource, int]) -> Key:
@@ -65,12 +72,13 @@ class Late:
     """
 
     def __init__(self, loaded: Loaded, before: Sequence[Key], sofar: Sofar) -> None:
-        owners, sids = _owners(loaded)
+        owned = _Owned.of(loaded)
         self._ids: dict[int, int] = {}
-        for place, key in enumerate(before):
-            mine, known = sids[owners == place].tolist(), sofar.bodies[key]
+        for key, mine in zip(before, owned.by_place(len(before)), strict=True):
+            known = sofar.bodies[key]
             if len(mine) == len(known):
                 self._ids.update(zip(mine, known, strict=True))
+        owners, sids = owned.owners(), owned.sids
         world = loaded.world
         table = world.joint_table
         fresh = _is_new(loaded, len(before))
@@ -103,26 +111,53 @@ class Late:
             document.note(rules.JOINT_LATE, message=message)
 
 
-def _owners(loaded: Loaded) -> tuple[Array, Array]:
-    """Of every body that was created the model that it is of, by its place, and the system id."""
-    bodies, kept = loaded.bodies, loaded.created
-    sids = bodies.parts.sids[bodies.tops]
-    return _roots(loaded, bodies.found.models)[kept], sids[kept]
+@dataclass(frozen=True, slots=True)
+class _Owned:
+    """Bodies that were created, and the models that they are of."""
+
+    sids: Array
+    """(n,) system ids."""
+    tops: Array
+    """(n,) rows of the outermost instances of models around them."""
+    roots: Array
+    """(k,) rows of the instances that were asked for, by their places."""
+
+    @classmethod
+    def of(cls, loaded: Loaded) -> _Owned:
+        bodies, kept = loaded.bodies, loaded.created
+        sids = bodies.parts.sids[bodies.tops]
+        return cls(sids[kept], _tops(loaded, bodies.found.models[kept]), loaded.roots)
+
+    def owners(self) -> Array:
+        """(n,) places of the models, -1 for none of those that were asked for."""
+        return _places(self.roots, self.tops)
+
+    def by_place(self, count: int) -> Iterator[list[int]]:
+        """The system ids of the bodies of each of the first `count` models."""
+        owners = self.owners()
+        order = np.argsort(owners, kind="stable")
+        cuts = np.searchsorted(owners[order], np.arange(count + 1)).tolist()
+        sids = self.sids[order].tolist()
+        return (sids[begin:end] for begin, end in itertools.pairwise(cuts))
 
 
-def _roots(loaded: Loaded, instances: Array) -> Array:
-    """The places, among the models that were asked for, of instances of models within them."""
+def _tops(loaded: Loaded, instances: Array) -> Array:
+    """The rows of the outermost instances around instances of models."""
     around, tops = loaded.expansion.around, np.asarray(instances)
     while np.any(around[tops] >= 0):
         tops = np.where(around[tops] >= 0, around[tops], tops)
-    places = {row: place for place, row in enumerate(loaded.roots.tolist())}
-    rows = loaded.expansion.rows[tops].tolist()
-    return np.array([places.get(row, -1) for row in rows], np.int64)
+    return np.asarray(loaded.expansion.rows[tops])
+
+
+def _places(roots: Array, tops: Array) -> Array:
+    """The places of rows among those of the instances that were asked for, the last of equals."""
+    places = {row: place for place, row in enumerate(roots.tolist())}
+    return np.array([places.get(row, -1) for row in tops.tolist()], np.int64)
 
 
 def _is_new(loaded: Loaded, count: int) -> Array:
     """Which joints of the World are of constraints in models after the first `count`."""
     table = loaded.world.joint_table
     joints = loaded.joints
-    mine = joints.sids[_roots(loaded, joints.models) >= count] if len(joints.sids) else joints.sids
+    mine = joints.sids[_places(loaded.roots, _tops(loaded, joints.models)) >= count]
     return np.isin(table.column("sids"), mine)
