@@ -111,8 +111,12 @@ def test_it_binds_the_bodies_of_the_links() -> None:
         (None, (0, 0, 1), "<locked><bool>true</bool></locked>"),
     ],
 )
-def test_what_does_not_move_is_fixed_as_it_stands(limits: Any, axis: Any, info: str) -> None:
-    world, codes = load(Arm([Segment(limits=limits, axis=axis, info=info, value=30.0)]))
+@pytest.mark.parametrize("bound", [True, False])
+def test_what_does_not_move_is_fixed_as_it_stands(
+    limits: Any, axis: Any, info: str, bound: bool
+) -> None:
+    arm = Arm([Segment(limits=limits, axis=axis, info=info, value=30.0)], bound=bound)
+    world, codes = load(arm)
     (joint,) = world.joints
     assert (joint.kind, codes) == (JointKind.FIXED, [])
     outer, inner = frames_of(world, 0)
@@ -512,3 +516,25 @@ def test_limits_give_way_to_the_pose_of_the_file(
     engine.step(1000)
     engine.store(world)
     assert np.abs(world.positions - before).max() < 1e-9
+
+
+@settings(max_examples=15, deadline=None)
+@given(
+    _arms, st.lists(st.sampled_from([None, (0.0, 0.0), (10.0, 90.0), (-90.0, -5.0)]), min_size=4)
+)
+def test_a_robot_rests_whatever_its_limits_are(arm: Arm, limits: list[Any]) -> None:
+    pytest.importorskip("mujoco")
+    for segment, span in zip(arm.segments, limits, strict=False):
+        segment.limits = span
+        segment.shape = "<sphere><radius>0.001</radius></sphere>"  # nothing touches
+        if not arm.bound:
+            segment.shown_at = (0.0, 0.0, 0.0)
+    world, _ = load(arm)
+    assert len(world.joints) == len(arm.segments)
+    world.gravity, world.time_step = (0, 0, 0), 0.002
+    before = world.positions.copy()
+    engine = create_engine("mujoco")
+    engine.load(world)
+    engine.step(200)
+    engine.store(world)
+    assert np.abs(world.positions - before).max() < 1e-7

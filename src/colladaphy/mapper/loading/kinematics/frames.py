@@ -154,7 +154,8 @@ class _Frames:
         near = _APART * self._size([before, last])
         if 2.0 * float(np.abs(turn).max()) > _APART or float(np.abs(shift).max()) > near:
             return None
-        return _Ends(before, before, last, last)
+        outer = before if joint.moving else last  # what is fixed is so as it stands
+        return _Ends(before, outer, last, last)
 
     def _bound(self, joint: JointModel | None) -> _Ends | None:
         """The frames before and behind the transforms that the axes of a joint are bound to."""
