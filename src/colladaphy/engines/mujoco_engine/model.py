@@ -157,6 +157,7 @@ class _Builder:
         self.geoms: list[tuple[Any, int, int]] = []  # with system id and material
         self.motors: list[tuple[Any, float]] = []  # MuJoCo's joints and their speeds
         self.inertias = inertias_of(world)
+        self.principals: dict[bytes, tuple[Any, Any]] = {}
         self.rows = {sid: row for row, sid in enumerate(world.sids.tolist())}
 
     def add_fixed(self) -> None:
@@ -184,9 +185,16 @@ class _Builder:
         row = self.rows[sid]
         body.mass = float(self.world.masses[row])
         body.ipos = np.zeros(3)
-        body.inertia, body.iquat = principal(self.inertias[row])
+        body.inertia, body.iquat = self._principal(self.inertias[row])
         body.explicitinertial = True
         self._add_geoms(body, sid)
+
+    def _principal(self, inertia: NDArray[np.float64]) -> tuple[Any, Any]:
+        """Principal moments and axes, which many bodies have in common."""
+        key = inertia.tobytes()
+        if key not in self.principals:
+            self.principals[key] = principal(inertia)
+        return self.principals[key]
 
     def _add_body(self, sid: int, parent: Any, pose: Pose) -> Any:
         body = parent.add_body()

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pymunk
 
 from colladaphy.engines.planar import Planarity
@@ -27,11 +28,10 @@ class Pairs:
         ids = {outline.material for outlines in plan.outlines.values() for outline in outlines}
         self._table = PairTable.of(world.materials, ids, rule)
         self._rows = {id: row for row, id in enumerate(self._table.ids.tolist())}
-        values = [*self._table.restitution.ravel(), *self._table.dynamic.ravel()]
-        half = len(values) // 2
         self._uniform: tuple[float, float] | None = None
-        if half and len(set(values[:half])) == 1 and len(set(values[half:])) == 1:
-            self._uniform = math.sqrt(values[0]), math.sqrt(values[half])
+        bounce, friction = self._table.restitution.ravel(), self._table.dynamic.ravel()
+        if len(bounce) and np.all(bounce == bounce[0]) and np.all(friction == friction[0]):
+            self._uniform = math.sqrt(bounce[0]), math.sqrt(friction[0])
 
     def dress(self, shape: pymunk.Shape, material: int) -> None:
         """Give a shape its material."""
