@@ -449,3 +449,6 @@ def test_what_cannot_be_merged_stays_referred_to(cli: Runner, tmp_path: Path) ->
     assert result.code == 0 and "io-reference-missing" in result.err
     assert b'url="parts/more/bolt.dae#m"' in (tmp_path / "new.dae").read_bytes()
     assert "bodies: 1 " in cli("info", tmp_path / "new.dae").out
+    (tmp_path / "in" / "parts" / "wheel.dae").unlink()
+    result = cli("convert", source, tmp_path / "other.dae", "--merge")
+    assert result.err.count("io-reference-missing") == 1  # not once for each way to look for it

@@ -66,7 +66,9 @@ class Mended:
         others = None
         if isinstance(target, str) and not self.alone and not self._is_home(target):
             others = companions_of(self.parsed, self.tree, render or _mended)
-            self.report.extend(others.findings)
+            known = {(each.code, each.message, each.line) for each in self.report}
+            self.report.extend(each for each in others.findings
+                               if (each.code, each.message, each.line) not in known)  # fmt: skip
         packed = packed_for(target, data, self.parsed.archive, self.parsed.member,
                             {} if others is None else others.files)  # fmt: skip
         save(packed, target)
