@@ -28,12 +28,20 @@ _EXPECTED = {
     ("frame_tip", "link"): ("link",),
     ("frame_tcp", "link"): ("link",),
     ("frame_object", "link"): ("link",),
-    ("axis_info", "axis"): ("axis", "revolute", "prismatic", "axis_info"),
+    ("axis_info", "axis"): ("revolute", "prismatic", "axis_info"),
     ("bind_kinematics_model", "node"): ("node",),
     ("bind_joint_axis", "target"): (
         "rotate", "translate", "matrix", "scale", "lookat", "skew",
     ),
 }  # fmt: skip
+_BOUND = {
+    "axis": ("revolute", "prismatic", "axis_info", "newparam"),
+    "bind_kinematics_model": (
+        "kinematics_model", "instance_kinematics_model", "articulated_system",
+        "instance_articulated_system", "kinematics_scene", "newparam",
+    ),
+}  # fmt: skip
+"""What addresses in texts mean, by what these stand in."""
 _HOLDERS = ("axis", "value", "active", "locked", "min", "max", "bind_kinematics_model")
 _MEMBER = re.compile(r"(\.[A-Za-z_]+|(?:\(\d+\))+)\Z")
 
@@ -50,12 +58,12 @@ def addresses(context: Context) -> Iterator[Hit]:
                 message = f"{text!r} leads nowhere: there is no {lost!r}."
                 yield Hit(MISSING, reference.element, message, (), attribute, Severity.WARNING)
                 continue
-            target = _exact(context, text)
+            target = _through(context, text)
             expected = _EXPECTED.get((name, attribute))
             if target >= 0 and expected and context.name(target) not in expected:
                 found = context.name(target)
-                if found.startswith("instance_"):
-                    continue  # the address goes on in what is instanced
+                if found == "newparam":
+                    continue  # it stands for what it refers to
                 message = f"{text!r} is a <{found}>, not {expected_text(expected)}."
                 yield Hit(WRONG_TYPE, reference.element, message, (target,), attribute,
                           Severity.WARNING)  # fmt: skip
@@ -70,6 +78,13 @@ def sidrefs(context: Context) -> Iterator[Hit]:
         if lost is not None:
             message = f"{text.strip()!r} leads nowhere: there is no {lost!r}."
             yield Hit(MISSING, element, message, severity=Severity.WARNING)
+            continue
+        expected = _BOUND.get(context.name(int(context.parent[element])))
+        target = _through(context, text.strip()) if expected else -1
+        if expected and target >= 0 and context.name(target) not in expected:
+            message = f"{text.strip()!r} is a <{context.name(target)}>, not "
+            message += f"{expected_text(expected)}."
+            yield Hit(WRONG_TYPE, element, message, (target,), severity=Severity.WARNING)
 
 
 def parameters(context: Context) -> Iterator[Hit]:
@@ -118,14 +133,17 @@ def _lost(context: Context, text: str) -> str | None:
     return None
 
 
-def _exact(context: Context, text: str) -> int:
-    """The element that an address leads to without instances; -1 where it does not."""
+def _through(context: Context, text: str) -> int:
+    """The element that an address leads to, through instances as well; -1 where it does not."""
     head, *rest = text.removeprefix("#").split("/")
     target = context.resource.ids.get(head, -1)
     for sid in rest:
         if target < 0:
             return -1
         inner = context.resource.sids.within(target, sid)
+        if inner is None and context.name(target).startswith("instance_"):
+            target = context.target(context.columns.attribute_of(target, "url"))
+            inner = context.resource.sids.within(target, sid) if target >= 0 else None
         target = -1 if inner is None else inner
     return target
 

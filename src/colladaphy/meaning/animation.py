@@ -54,6 +54,11 @@ def samplers(context: Context) -> Iterator[Hit]:
                 counts.setdefault(inputs.semantics[row], table.count(int(inputs.sources[row])))
         known = {count for count in counts.values() if count is not None}
         if len(known) > 1:
+            wanted = max(known)
+            shorts = [table.short(int(inputs.sources[row]), wanted) for row in inputs.of(element)]
+            if found := [short for short in shorts if short]:
+                yield from found
+                continue
             said = ", ".join(f"{count} {name}" for name, count in counts.items())
             yield Hit(animation_rules.KEY_COUNT, element, f"The inputs differ in number: {said}.")
             continue

@@ -112,6 +112,14 @@ SKIN_MATRIX = Rule(
     "COLLADA 1.5 §joints",
     "The vertices of that joint collapse.",
 )
+SKIN_WEIGHT = Rule(
+    "animation-skin-weight",
+    Severity.WARNING,
+    "A weight of a skin is negative.",
+    "Give every weight a value from 0 to 1.",
+    "COLLADA 1.5 §vertex_weights",
+    "The vertex moves against the joint.",
+)
 SKIN_JOINT_TWICE = Rule(
     "animation-skin-joint-twice",
     Severity.WARNING,
@@ -124,6 +132,7 @@ SKIN_JOINT_TWICE = Rule(
 RULES = (
     SKIN_MATRIX,
     SKIN_JOINT_TWICE,
+    SKIN_WEIGHT,
     SKIN_COUNT,
     SKIN_INDEX,
     SKIN_SUM,

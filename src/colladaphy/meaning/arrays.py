@@ -133,6 +133,7 @@ class Sources:
         last = self.starts + self.steps * (self.counts - 1) + 1
         whole = [self._whole(array) for array in self.arrays.tolist()]
         lengths = counted(np.array(whole, dtype=object))
+        self._held = (lengths - self.starts) // np.maximum(self.steps, 1)
         self.counts[(lengths >= 0) & (last > lengths) & (self.counts > 0)] = -1
         self._faulty = context.shared(_faulty_arrays) | context.shared(_faulty_accessors)
 
@@ -152,6 +153,18 @@ class Sources:
     def count(self, row: int) -> int | None:
         """How many items the accessor of a source reads."""
         return int(self.counts[row]) if self.counts[row] >= 0 else None
+
+    def short(self, row: int, wanted: int) -> Hit | None:
+        """What to say where so many items are used that only the accessor lacks them.
+
+        It is the same whoever finds it, so that it is told once.
+        """
+        count, held = int(self.counts[row]), int(self._held[row])
+        if row < 0 or not 0 <= count < wanted <= held or self._is_faulty(row):
+            return None
+        message = f"The count is {count}, but more items are used, and the array has {held}."
+        return Hit(geometry_rules.ACCESSOR_SHORT, int(self.accessors[row]), message,
+                   (int(self.arrays[row]),), "count")  # fmt: skip
 
     def numbers(self, row: int) -> Array | None:
         """The items (n, stride) of a source of numbers; None where they cannot be read."""

@@ -50,6 +50,8 @@ SUBJECTS: Final[dict[str, tuple[str, ...]]] = {
     "kinematics": ("revolute", "prismatic", "axis_info"),
     "profile": ("technique",),
     "staleness": ("technique",),
+    "stale_motions": ("technique",),
+    "stale_parts": ("technique",),
 }
 """The modules of rules, each with the elements that it is about (none: it is always run).
 

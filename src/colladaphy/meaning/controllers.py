@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.findings import Severity
-from colladaphy.links.rules import MISSING
+from colladaphy.links.rules import MISSING, WRONG_TYPE
 from colladaphy.meaning import animation_rules
 from colladaphy.meaning.arrays import CountRows, sources_of
 from colladaphy.meaning.context import Context, IntegerRows, NamedRows, TextRows
 from colladaphy.meaning.hits import Hit, listed
 from colladaphy.meaning.inputs import inputs_of
+from colladaphy.meaning.materials import geometry_of
 from colladaphy.meaning.scene import degenerate_matrices
 from colladaphy.meaning.semantics import unfit_inputs
 from colladaphy_schema.rows import Rows
@@ -47,6 +48,9 @@ def weights(context: Context) -> Iterator[Hit]:
             yield Hit(animation_rules.SKIN_COUNT, element, message, (), "count")
             continue
         if vertices is not None and count != vertices:
+            if short := _short_vertices(context, skin, count):
+                yield short
+                continue
             message = f"There are weights for {count} vertices, but the geometry has {vertices}."
             yield Hit(animation_rules.SKIN_COUNT, element, message, (), "count")
             continue
@@ -68,6 +72,10 @@ def weights(context: Context) -> Iterator[Hit]:
             if limit is None or not len(used):
                 continue
             if int(used.max()) >= limit or int(used.min()) < least:
+                if short := inputs.short(each, int(used.max()) + 1):
+                    yield short
+                    faulty = True
+                    break
                 worst = int(used.max()) if int(used.max()) >= limit else int(used.min())
                 message = (
                     f"The index {worst} of {inputs.semantics[each]} is not one of {limit} values."
@@ -82,6 +90,10 @@ def weights(context: Context) -> Iterator[Hit]:
         if numbers is None or not np.isfinite(numbers).all():
             continue
         used = numbers[v[1][int(inputs.offsets[which]) :: stride], 0]
+        if bool(np.any(used < 0.0)):
+            message = f"A weight is {used[used < 0.0][0]:g}."
+            yield Hit(animation_rules.SKIN_WEIGHT, v[0], message, (element,))
+            continue
         owner = np.repeat(np.arange(count), vcount[1])
         sums = np.bincount(owner, used, minlength=count)
         wrong = np.flatnonzero((np.abs(sums - 1.0) > 0.01) & (vcount[1] > 0))
@@ -113,6 +125,18 @@ def _vertex_count(context: Context, controller: int, depth: int = 0) -> int | No
         inner = context.first_children("skin", "morph").get(target, -1)
         return _vertex_count(context, inner, depth + 1) if inner >= 0 else None
     return geometry_size(context, target)
+
+
+def _short_vertices(context: Context, controller: int, wanted: int) -> Hit | None:
+    """What to say where only an accessor of the geometry of a skin or morph lacks vertices."""
+    geometry = geometry_of(context, context.columns.attribute_of(controller, "source"))
+    return _short_positions(context, geometry, wanted)
+
+
+def _short_positions(context: Context, geometry: int, wanted: int) -> Hit | None:
+    vertices = context.shared(_vertices).get(geometry)
+    row = -1 if vertices is None else inputs_of(context).named(vertices, "POSITION")
+    return None if row < 0 else inputs_of(context).short(row, wanted)
 
 
 def geometry_size(context: Context, geometry: int) -> int | None:
@@ -149,6 +173,9 @@ def joints(context: Context) -> Iterator[Hit]:
         if source >= 0 and bind >= 0:
             count, others = table.count(source), table.count(bind)
             if count is not None and others is not None and count != others:
+                if short := table.short(source, others) or table.short(bind, count):
+                    yield short
+                    continue
                 message = f"There are {count} joints and {others} inverse bind matrices."
                 row = inputs.named(element, "INV_BIND_MATRIX")
                 yield Hit(animation_rules.SKIN_BIND, int(inputs.elements[row]), message, (element,))
@@ -253,6 +280,9 @@ def morphs(context: Context) -> Iterator[Hit]:
         count = table.count(source)
         others = None if weights < 0 else table.count(weights)
         if count is not None and others is not None and count != others:
+            if short := table.short(source, others) or table.short(weights, count):
+                yield short
+                continue
             message = f"There are {count} targets and {others} weights."
             yield Hit(animation_rules.MORPH_TARGETS, element, message)
             continue
@@ -268,7 +298,15 @@ def morphs(context: Context) -> Iterator[Hit]:
         size = _vertex_count(context, int(context.parent[element]))
         for word, target in zip(words, found, strict=True):
             other = geometry_size(context, target)
+            if context.name(target) not in ("geometry", "controller"):
+                message = f"The target {word!r} is a <{context.name(target)}>, not a <geometry>."
+                yield Hit(WRONG_TYPE, array, message, (target,), severity=Severity.WARNING)
+                break
             if size is not None and other is not None and other != size:
+                short = _short_positions(context, target, size)
+                if short := short or _short_vertices(context, int(context.parent[element]), other):
+                    yield short
+                    break
                 message = f"The target {word!r} has {other} vertices, the geometry {size}."
                 yield Hit(animation_rules.MORPH_TARGETS, array, message, (element, target))
                 break

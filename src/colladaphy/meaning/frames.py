@@ -178,7 +178,7 @@ def _pairs(
     parts, home = context.shared(parts_of), context.resource
     placed = context.shared(_Placed)
     at = {element: row for row, element in enumerate(table.elements.tolist())}
-    disabled = _disabled(context)
+    disabled, faulty = _disabled(context), unclear_nodes(context)
     for element, name in instances:
         instance = int(context.parent[element])
         model = parts.model(home, instance)
@@ -198,6 +198,8 @@ def _pairs(
                 continue
             found = placed.by_model.get((instance, body), [])
             ends.append(found[0] if len(found) == 1 and placed.known[found[0]] else -2)
+        if table.attachments[row, 0] in faulty or table.attachments[row, 1] in faulty:
+            continue  # where its frames are cannot be told
         if -2 not in ends and ends != [-1, -1] and ends[0] != ends[1]:
             yield row, ends[0], ends[1]
 

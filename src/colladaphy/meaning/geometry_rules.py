@@ -22,6 +22,14 @@ ACCESSOR_RANGE = Rule(
     "COLLADA 1.5 §accessor",
     "What is read there is not in the file.",
 )
+ACCESSOR_SHORT = Rule(
+    "geometry-accessor-short",
+    Severity.ERROR,
+    "An accessor reads fewer items than are used, though its array has them.",
+    "Correct the count of the accessor.",
+    "COLLADA 1.5 §accessor",
+    "Readers that rely on the count refuse the indices past it, or the whole geometry.",
+)
 ACCESSOR_STRIDE = Rule(
     "geometry-accessor-stride",
     Severity.ERROR,
@@ -210,6 +218,7 @@ RULES = (
     ARRAY_BOUNDS,
     ARRAY_COUNT,
     ACCESSOR_RANGE,
+    ACCESSOR_SHORT,
     ACCESSOR_STRIDE,
     PARAM_TYPE,
     INPUT_TWICE,

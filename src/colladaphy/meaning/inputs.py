@@ -85,17 +85,19 @@ class Inputs:
 
     def count(self, row: int) -> int | None:
         """How many values there are behind an input; None where that cannot be told."""
-        context = self.context
+        source = self.behind(row)
+        return None if source < 0 else sources_of(self.context).count(source)
+
+    def behind(self, row: int) -> int:
+        """The row of the source behind an input, be it through vertices; -1 for none."""
         target = int(self.targets[row])
-        if target < 0:
-            return None
-        table = sources_of(context)
-        if self.sources[row] >= 0:
-            return table.count(int(self.sources[row]))
-        if context.name(target) != "vertices":
-            return None
-        source = self.source(target, "POSITION")
-        return None if source < 0 else table.count(source)
+        if target < 0 or self.sources[row] >= 0:
+            return int(self.sources[row])
+        return self.source(target, "POSITION") if self.context.name(target) == "vertices" else -1
+
+    def short(self, row: int, wanted: int) -> Hit | None:
+        """What to say where only the accessor behind an input lacks so many items."""
+        return sources_of(self.context).short(self.behind(row), wanted)
 
 
 def inputs_of(context: Context) -> Inputs:

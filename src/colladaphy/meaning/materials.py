@@ -11,7 +11,7 @@ from colladaphy.meaning.hits import Hit, listed
 from colladaphy.meaning.inputs import PRIMITIVES, inputs_of
 from colladaphy_schema.rows import Rows
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "geometry_of"]
 
 
 def symbols(context: Context) -> Iterator[Hit]:
@@ -23,7 +23,13 @@ def symbols(context: Context) -> Iterator[Hit]:
     bound = context.shared(_bound)
     for element in elements.tolist():
         instance = int(context.parent[element])
-        geometry = _geometry(context, context.columns.attribute_of(instance, "url"))
+        url = context.columns.attribute_of(instance, "url")
+        # An instance of another kind of element is told of as such.
+        wanted = context.name(instance).removeprefix("instance_")
+        target = context.target(url)
+        if target < 0 or context.name(target) != wanted:
+            continue
+        geometry = geometry_of(context, url)
         groups = primitives.get(geometry)
         if not groups:
             continue
@@ -72,7 +78,7 @@ def _vertex_inputs(context: Context, material: int, primitives: list[int]) -> It
                 yield Hit(link_rules.VERTEX_INPUT, element, message, (primitives[0],), "input_set")
 
 
-def _geometry(context: Context, url: str | None, depth: int = 0) -> int:
+def geometry_of(context: Context, url: str | None, depth: int = 0) -> int:
     """The geometry that an instance shows, be it by a controller; -1 for none."""
     target = context.target(url)
     if target < 0 or depth > 8:
@@ -84,7 +90,7 @@ def _geometry(context: Context, url: str | None, depth: int = 0) -> int:
     inner = context.first_children("skin", "morph").get(target, -1)
     if inner < 0:
         return -1
-    return _geometry(context, context.columns.attribute_of(inner, "source"), depth + 1)
+    return geometry_of(context, context.columns.attribute_of(inner, "source"), depth + 1)
 
 
 def _primitives(context: Context) -> dict[int, dict[str, list[int]]]:

@@ -90,7 +90,7 @@ def odd_transforms(context: Context) -> dict[int, list[int]]:
 
 
 def unclear_nodes(context: Context) -> set[int]:
-    """Nodes with transforms that scale, skew or mirror, or that are faulty themselves."""
+    """What has transforms that scale, skew or mirror, or that are faulty: nodes and others."""
     return context.shared(_transforms)[1]
 
 
@@ -121,6 +121,8 @@ def _transforms(context: Context) -> tuple[dict[int, list[int]], set[int]]:
         elif name == "scale":
             odd = np.asarray((np.abs(values - 1.0) > 2e-6).any(axis=1))
             faulty = faulty | ~values.all(axis=1)
+        elif name == "rotate":
+            faulty = faulty | (~values[:, :3].any(axis=1) & (values[:, 3] != 0.0))
         elif name == "skew":
             odd = values[:, 0] != 0.0
         odd &= ~faulty

@@ -177,20 +177,29 @@ def indices(context: Context) -> Iterator[Hit]:
     beyond: Counter[int] = Counter()
     for group in groups_of(context):
         limits: dict[int, tuple[int, str, int]] = {}
+        seen: set[tuple[str, int]] = set()
         for row in inputs.of(group.element):
+            kind = inputs.semantics[row], int(inputs.sets[row])
+            if kind in seen:
+                continue  # that it is there twice is told
+            seen.add(kind)
             count = inputs.count(row)
             behind = inputs.named(int(inputs.targets[row]), "POSITION")
             if count is None or row in unfit or behind in unfit:
                 continue
             offset = int(inputs.offsets[row])
             if offset not in limits or count < limits[offset][0]:
-                limits[offset] = count, inputs.semantics[row], int(inputs.targets[row])
+                limits[offset] = count, inputs.semantics[row], row
         for element, values in group.parts:
             if len(values) % (group.stride * _PER_FACE.get(group.name, 1)):
                 continue  # which index is of what cannot be told
-            for offset, (count, semantic, target) in sorted(limits.items()):
+            for offset, (count, semantic, row) in sorted(limits.items()):
                 mine = values[offset :: group.stride]
                 if len(mine) and int(mine.max()) >= count:
+                    if short := inputs.short(row, int(mine.max()) + 1):
+                        yield short
+                        break
+                    target = int(inputs.targets[row])
                     message = (
                         f"The index {int(mine.max())} of {semantic} is past the last of "
                         f"{count} values, which is {count - 1}."

@@ -38,6 +38,8 @@ _RANGES = {
     "radius": -1.0,
     "radii": 0.0,
     "lengths": -1.0,
+    "time_step": -1.0,
+    "strength": 0.0,
     "length": 0.0,
 }
 """Values that may not be negative; -1 where they may not be zero either."""
@@ -47,15 +49,19 @@ _OF_MATERIALS = {
     "dynamic_friction": (0.0, np.inf),
     "poisson_ratio": (-1.0, 0.5),
     "young_modulus": (0.0, np.inf),
+    "stiffness": (0.0, np.inf),
     "damping_normal": (0.0, np.inf),
     "damping_tangential": (0.0, np.inf),
 }
+_OF_PAIRS = {name: _OF_MATERIALS[name]
+             for name in ("restitution", "static_friction", "dynamic_friction")}  # fmt: skip
 _FINITE = (
     "position", "orientation", "linear_velocity", "angular_velocity", "force", "torque", "gravity",
-    "time_step", "radius", "radii", "lengths", "length", "normal", "anchor", "displacement",
+    "time_step", "speed", "radius", "radii", "lengths", "length", "normal", "anchor",
+    "displacement",
 )  # fmt: skip
 _NUMBERS = (
-    "mass", "inertia", "min", "max", "stiffness", "damping", "target_value", "density",
+    "mass", "inertia", "min", "max", "stiffness", "damping", "target_value", "density", "strength",
     "poisson_ratio", "young_modulus", "damping_normal", "damping_tangential", "dynamic_friction",
     "restitution", "static_friction",
 )  # fmt: skip
@@ -122,6 +128,10 @@ def numbers(context: Context) -> Iterator[Hit]:
             for row in np.unique(owner).tolist():
                 shown = " ".join(f"{value:g}" for value in values[row].tolist())
                 yield Hit(profile_rules.NUMBER, int(elements[row]), f"<pe:{name}> is {shown}.")
+        if name == "normal":
+            flat = ~values.values.reshape(-1, 3).any(axis=1)
+            for element in elements[flat].tolist():
+                yield Hit(profile_rules.VALUE, element, "The normal is 0 0 0.")
         if name == "orientation":
             table = values.values.reshape(-1, 4)
             for element in elements[~table.any(axis=1)].tolist():
@@ -167,6 +177,23 @@ def ranges(context: Context) -> Iterator[Hit]:
             shown = " ".join(f"{value:g}" for value in low_values[row].tolist())
             message = f"The lower limits are {shown}, above the upper ones."
             yield Hit(profile_rules.VALUE, int(lower[row]), message, (int(around[row]),))
+
+
+def pairs(context: Context) -> Iterator[Hit]:
+    """Values of pairs of materials, and times of worlds, that are none."""
+    profile = profile_of(context)
+    for name, keys in (("pair", _OF_PAIRS), ("world", {"time": (-np.inf, np.inf)})):
+        for element in profile.elements(name).tolist():
+            for key, (least, most) in keys.items():
+                text = context.columns.attribute_of(element, key)
+                if text is None:
+                    continue
+                value = float(text)
+                if not np.isfinite(value):
+                    yield Hit(profile_rules.NUMBER, element, f"The {key} is {value:g}.", (), key)
+                elif not least <= value <= most:
+                    yield Hit(profile_rules.VALUE, element, f"The {key} is {value:g}.", (), key,
+                              Severity.WARNING)  # fmt: skip
 
 
 def links(context: Context) -> Iterator[Hit]:
@@ -278,4 +305,4 @@ def profile_codes(context: Context) -> tuple[int, ...]:
     return context.columns.codes_of(f"{{{PE}}}body")
 
 
-CHECKS = (places, namespaces, numbers, ranges, links, ids, once, unions)
+CHECKS = (places, namespaces, numbers, ranges, pairs, links, ids, once, unions)

@@ -115,12 +115,15 @@ def readable(context: Context) -> Iterator[Hit]:
 def vertices(context: Context) -> Iterator[Hit]:
     """Vertices with more positions than normals, or the other way round."""
     inputs, table = inputs_of(context), sources_of(context)
-    for element in context.ordinals("vertices").tolist():
+    for element in context.ordinals("vertices", "control_vertices").tolist():
         first = inputs.named(element, "POSITION")
         count = None if first < 0 else inputs.count(first)
         for row in inputs.of(element):
             other = inputs.count(row)
             if row == first or count is None or other is None or other == count:
+                continue
+            if short := inputs.short(row, count) or inputs.short(first, other):
+                yield short
                 continue
             message = f"There are {count} positions, but {other} values of {inputs.semantics[row]}."
             yield Hit(geometry_rules.VERTEX_COUNT, int(inputs.elements[row]), message,

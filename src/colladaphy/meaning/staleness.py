@@ -7,33 +7,33 @@ newer ones; here the difference is told. Values that agree to six digits are the
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.links.poses import DEGREE, Poses, quaternion_product, unit_quaternions
-from colladaphy.links.steps import Steps, poses_of_steps
+from colladaphy.links.names import p
+from colladaphy.links.poses import DEGREE, Poses, quaternion_product
 from colladaphy.meaning import profile_rules
 from colladaphy.meaning.body_table import bodies_of
-from colladaphy.meaning.constraint_table import AttachmentRows, limits_of
-from colladaphy.meaning.context import Context
+from colladaphy.meaning.constraint_table import limits_of
+from colladaphy.meaning.context import Context, TextRows
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.node_table import nodes_of, unclear_nodes
 from colladaphy.meaning.profile_table import Profile, profile_of
 from colladaphy.meaning.shape_table import shapes_of
 from colladaphy_schema.rows import Rows
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "DIGITS", "TURN", "is_told", "old", "paired", "rods", "same"]
 
 Array = NDArray[Any]
 
 
-_DIGITS = 6e-6
-_TURN = 1e-4
+DIGITS = 6e-6
+TURN = 1e-4
 _ROD = np.array([[math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)]])
 """Turns the profile's axis x of capsules and cylinders onto COLLADA's y."""
+_KINDS = ("sphere", "box", "capsule", "cylinder", "plane")
 _SIZES = (
     ("sphere", "radius", "sphere", "radius", 1, 1.0),
     ("box", "lengths", "box", "half_extents", 3, 2.0),
@@ -42,23 +42,27 @@ _SIZES = (
 )
 
 
-def _same(one: Array, other: Array) -> bool:
+def same(one: Array, other: Array) -> bool:
+    """Whether two values agree to six digits."""
     if np.isnan(one).any() or np.isnan(other).any():
         return True  # told elsewhere
     # Of the largest numbers the common profile says only that they are large.
     large = (np.minimum(np.abs(one), np.abs(other)) > 1e300) & (np.sign(one) == np.sign(other))
     one, other = np.where(large, 0.0, one), np.where(large, 0.0, other)
     scale = np.maximum(np.abs(one), np.abs(other)).max(initial=0.0)
-    close = (np.abs(one - other) <= _DIGITS * scale) & np.isfinite(one) & np.isfinite(other)
+    if scale < 1e-300:
+        return True  # the tiniest doubles have few bits
+    close = (np.abs(one - other) <= DIGITS * scale) & np.isfinite(one) & np.isfinite(other)
     return bool(np.all(close | (one == other)))
 
 
-def _is_told(*values: Array) -> bool:
+def is_told(*values: Array) -> bool:
     """Whether a value is no number that there can be, which is told elsewhere."""
     return not all(bool(np.isfinite(each).all()) for each in values)
 
 
-def _hit(what: str, element: int, stated: Array, kept: Array, other: int) -> Hit:
+def old(what: str, element: int, stated: Array, kept: Array, other: int) -> Hit:
+    """What to say of a value that was left behind."""
     one, two = (" ".join(f"{value:g}" for value in values.tolist()) for values in (stated, kept))
     message = f"The {what} is {one} in the common profile, {two} in the pe profile."
     return Hit(profile_rules.OLD_VALUE, element, message, (other,))
@@ -72,13 +76,85 @@ def masses(context: Context) -> Iterator[Hit]:
         kept.tolist(), profile.holders(kept).tolist(), values, strict=True
     ):
         row = bodies.row(holder)
-        if row < 0 or bodies.mass_elements[row] < 0:
+        if row < 0:
             continue
-        stated = bodies.masses[row : row + 1]
-        if value[0] < 0.0 or not stated[0] >= 0.0 or _is_told(stated, value):
+        stated, other = bodies.masses[row : row + 1], int(bodies.mass_elements[row])
+        if other < 0:
+            stated, other = np.array([_mass_of_shapes(context, row)]), holder
+        if value[0] < 0.0 or not stated[0] >= 0.0 or is_told(stated, value):
             continue
-        if not _same(stated, value):
-            yield _hit("mass", element, stated, value, int(bodies.mass_elements[row]))
+        if not same(stated, value):
+            yield old("mass", element, stated, value, other)
+
+
+def _mass_of_shapes(context: Context, body: int) -> float:
+    """The mass of a body that states none, by its shapes; NaN where one does not say it."""
+    shapes = shapes_of(context)
+    masses, _ = context.vectors(shapes.rows, "mass", 1)
+    return float(masses[shapes.holders == body, 0].sum()) if body in shapes.holders else np.nan
+
+
+def inertias(context: Context) -> Iterator[Hit]:
+    """Principal moments of inertia of bodies, whichever axes they are about."""
+    profile, bodies = profile_of(context), bodies_of(context)
+    kept, _, values = profile.values("inertia", 9, "body")
+    for element, holder, value in zip(
+        kept.tolist(), profile.holders(kept).tolist(), values, strict=True
+    ):
+        row = bodies.row(holder)
+        if row < 0 or bodies.inertia_elements[row] < 0:
+            continue
+        stated = np.sort(bodies.inertias[row])
+        if is_told(stated, value) or not (stated > 0.0).all():
+            continue
+        tensor = value.reshape(3, 3)
+        moments = np.linalg.eigvalsh((tensor + tensor.T) / 2.0)
+        if not (moments > 0.0).all() or moments[0] + moments[1] < moments[2] * (1.0 - 1e-3):
+            continue  # told elsewhere
+        if float(np.abs(moments - stated).max()) > 10.0 * DIGITS * float(moments[2]):
+            yield old("inertia", element, stated, moments, int(bodies.inertia_elements[row]))
+
+
+def fixed(context: Context) -> Iterator[Hit]:
+    """Whether bodies can move."""
+    profile, bodies = profile_of(context), bodies_of(context)
+    kept = profile.elements("fixed")
+    bodies_kept = context.columns.codes_of(p("body"))
+    kept = kept[np.isin(context.columns.index.codes[context.parent[kept]], bodies_kept)]
+    words = context.at(TextRows, kept).value if len(kept) else []
+    for element, holder, word in zip(
+        kept.tolist(), profile.holders(kept).tolist(), words, strict=True
+    ):
+        row = bodies.row(holder)
+        if row < 0 or bodies.moves[row] != (word.strip() in ("true", "1")):
+            continue
+        message = "The body moves in the common profile, and is fixed in the pe profile."
+        if not bodies.moves[row]:
+            message = "The body is not dynamic in the common profile, and moves in the pe profile."
+        yield Hit(profile_rules.OLD_VALUE, element, message, (holder,))
+
+
+def kinds(context: Context) -> Iterator[Hit]:
+    """Shapes that are others now."""
+    profile, pairs = profile_of(context), None
+    known: dict[int, str] = {}
+    for kind in _KINDS:
+        elements = profile.elements(kind)
+        if not len(elements):
+            continue
+        if pairs is None:
+            pairs, shapes = paired(context, profile), shapes_of(context)
+            for name in _KINDS:
+                found = context.children(shapes.rows, name, Rows)
+                known.update(dict.fromkeys(shapes.elements[found.owner].tolist(), name))
+        for element, shape in zip(
+            elements.tolist(), context.parent[elements].tolist(), strict=True
+        ):
+            now = known.get(pairs.get(shape, -1), kind)
+            # A sphere may be written as a capsule without a length.
+            if now != kind and {now, kind} != {"sphere", "capsule"}:
+                message = f"The shape is a {now} in the common profile, a {kind} in the pe profile."
+                yield Hit(profile_rules.OLD_VALUE, element, message, (pairs[shape],))
 
 
 def sizes(context: Context) -> Iterator[Hit]:
@@ -90,7 +166,7 @@ def sizes(context: Context) -> Iterator[Hit]:
         if not len(kept):
             continue
         if pairs is None:
-            pairs = _paired(context, profile)
+            pairs = paired(context, profile)
         shapes = shapes_of(context)
         rows = context.children(shapes.rows, outer, Rows)
         stated, elements = context.vectors(rows, size, width)
@@ -99,33 +175,35 @@ def sizes(context: Context) -> Iterator[Hit]:
             row = at.get(pairs.get(shape, -1), -1)
             if row < 0 or not (values[place] > 0.0).all() or not (stated[row] > 0.0).all():
                 continue
-            if _is_told(stated[row], values[place]):
+            if is_told(stated[row], values[place]):
                 continue
-            if not _same(stated[row] * factor, values[place]):
-                yield _hit(f"{name} of the {kind}", int(kept[place]), stated[row] * factor,
+            if not same(stated[row] * factor, values[place]):
+                yield old(f"{name} of the {kind}", int(kept[place]), stated[row] * factor,
                            values[place], int(elements[row]))  # fmt: skip
 
 
 def radii(context: Context) -> Iterator[Hit]:
     """Radii of capsules and cylinders, whichever axes they are along."""
     profile = profile_of(context)
-    for kind, width in (("capsule", 3), ("cylinder", 2)):
-        kept, around, values = profile.values("radii", 3, kind)
+    for kind, width, name in (("capsule", 3, "radii"), ("cylinder", 2, "radii"),
+                              ("capsule", 3, "radius"), ("cylinder", 2, "radius")):  # fmt: skip
+        kept, around, values = profile.values(name, 1 if name == "radius" else 3, kind)
         if not len(kept):
             continue
-        shapes, pairs = shapes_of(context), _paired(context, profile)
+        values = np.broadcast_to(values, (len(kept), 3))
+        shapes, pairs = shapes_of(context), paired(context, profile)
         rows = context.children(shapes.rows, kind, Rows)
         stated, elements = context.vectors(rows, "radius", width)
         at = dict(zip(shapes.elements[rows.owner].tolist(), range(len(rows)), strict=True))
         for place, shape in enumerate(context.parent[around].tolist()):
             row = at.get(pairs.get(shape, -1), -1)
             mine = values[place, 3 - width :]
-            if row < 0 or _is_told(stated[row], mine):
+            if row < 0 or is_told(stated[row], mine):
                 continue
             if not (stated[row] > 0.0).all() or not (mine > 0.0).all():
                 continue
-            if not _same(np.sort(stated[row]), np.sort(mine)):
-                yield _hit(f"radius of the {kind}", int(kept[place]), stated[row], mine,
+            if not same(np.sort(stated[row]), np.sort(mine)):
+                yield old(f"radius of the {kind}", int(kept[place]), stated[row], mine,
                            int(elements[row]))  # fmt: skip
 
 
@@ -146,13 +224,13 @@ def materials(context: Context) -> Iterator[Hit]:
         holders = np.where(context.is_named(holders, "extra"), context.parent[holders], holders)
         for element, holder, value in zip(kept.tolist(), holders.tolist(), values, strict=True):
             row = at.get(holder, -1)
-            if row < 0 or places[row] < 0 or _is_told(stated[row], value):
+            if row < 0 or places[row] < 0 or is_told(stated[row], value):
                 continue
-            if 0.0 <= stated[row, 0] <= most and not _same(stated[row], value):
-                yield _hit(name.replace("_", " "), element, stated[row], value, int(places[row]))
+            if 0.0 <= stated[row, 0] <= most and not same(stated[row], value):
+                yield old(name.replace("_", " "), element, stated[row], value, int(places[row]))
 
 
-def _paired(context: Context, profile: Profile) -> dict[int, int]:
+def paired(context: Context, profile: Profile) -> dict[int, int]:
     """The shapes of bodies by those of their profiles, where there are as many."""
     own: dict[int, list[int]] = {}
     elements = context.ordinals("shape")
@@ -172,135 +250,24 @@ def _paired(context: Context, profile: Profile) -> dict[int, int]:
     }
 
 
-def motions(context: Context) -> Iterator[Hit]:
-    """Orientations, positions and velocities of instances."""
-    profile = profile_of(context)
-    yield from _velocities(context, profile)
-    turns, turned, orientations = profile.values("orientation", 4, "motion")
-    places, placed, positions = profile.values("position", 3, "motion")
-    if not len(turns) and not len(places):
-        return
-    nodes, unclear = nodes_of(context), unclear_nodes(context)
-    elements = np.unique(np.concatenate([turned, placed]))
-    holders = profile.holders(elements)
-    targets = np.array([nodes.targets.get(holder, -1) for holder in holders.tolist()], np.int64)
-    parents = [
-        reference.element
-        for reference in context.references("parent", "instance_physics_model")
-        if reference.text.strip()
-    ]
-    models = context.ordinals("instance_physics_model")
-    nested = models[context.is_within(models, "physics_model")]
-    around = context.parent[holders]
-    good = (targets >= 0) & ~np.isin(around, parents) & ~np.isin(around, nested)
-    if unclear:
-        good[good] = [not unclear & set(nodes.chain(node)) for node in targets[good].tolist()]
-    elements, holders, targets = elements[good], holders[good], targets[good]
-    if not len(elements):
-        return
-    table = context.placement.nodes
-    poses, _ = context.placement.poses(table.rows_of(0, targets))
-    inner, single, plane, clear = _inner_poses(context, holders)
-    whole = poses.then(inner)
-    mine, at = _matched(elements, turned)
-    mine, at = (each[np.isfinite(orientations[mine]).all(axis=1)] for each in (mine, at))
-    units = unit_quaternions(orientations[mine])
-    stated = whole.orientations[at]
-    apart = np.minimum(np.abs(units - stated).max(axis=1, initial=0.0),
-                       np.abs(units + stated).max(axis=1, initial=0.0))  # fmt: skip
-    for row in np.flatnonzero(
-        (apart > _TURN) & orientations[mine].any(axis=1) & ~plane[at] & clear[at]
-    ).tolist():
-        yield _hit("orientation", int(turns[mine[row]]), stated[row], orientations[mine[row]],
-                   int(targets[at[row]]))  # fmt: skip
-    mine, at = _matched(elements, placed)
-    stated = whole.positions[at]
-    columns = (positions[mine], stated, inner.positions[at])
-    scale = np.max([np.abs(column).max(axis=1, initial=0.0) for column in columns], axis=0)
-    apart = np.abs(positions[mine] - stated).max(axis=1, initial=0.0)
-    told = ~np.isfinite(positions[mine]).all(axis=1) | ~clear[at]
-    for row in np.flatnonzero((apart > 10.0 * _DIGITS * scale) & single[at] & ~told).tolist():
-        yield _hit("position", int(places[mine[row]]), stated[row], positions[mine[row]],
-                   int(targets[at[row]]))  # fmt: skip
-
-
-def _matched(elements: Array, wanted: Array) -> tuple[Array, Array]:
-    """Places in `wanted` whose element is one of `elements`, ascending, and its place there."""
-    if not len(elements):
-        return np.zeros(0, np.int64), np.zeros(0, np.int64)
-    at = np.minimum(np.searchsorted(elements, wanted), len(elements) - 1)
-    mine = np.flatnonzero(elements[at] == wanted)
-    return mine, at[mine]
-
-
-def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Array, Array]:
-    """The frames of Worlds' bodies in their rigid_bodies, whether the place is known, planes.
-
-    The last is of which frames nothing is faulty.
-
-    A body of one shape has the frame of that shape, one of several has its own.
-    """
-    bodies, shapes = bodies_of(context), shapes_of(context)
-    rows = np.searchsorted(bodies.elements, instances)
-    body = bodies.body[rows]
-    order = np.argsort(shapes.holders, kind="stable")
-    holders = shapes.holders[order]
-    own = np.searchsorted(holders, rows) < np.searchsorted(holders, rows, side="right")
-    inherited = ~own & (body >= 0)
-    source = np.where(inherited, body, rows)
-    frames = context.ancestor(context.ordinals("mass_frame"), "rigid_body", "instance_rigid_body")
-    framed = np.isin(instances, frames)
-    framed |= inherited & np.isin(bodies.elements[source], frames)
-    begin = np.searchsorted(holders, source)
-    single = np.searchsorted(holders, source, side="right") - begin == 1
-    made = Poses.none(len(instances))
-    known, flat = np.zeros(len(instances), np.bool_), np.zeros(len(instances), np.bool_)
-    clear = np.ones(len(instances), np.bool_)
-    mine = np.flatnonzero(single)
-    shape = order[begin[mine]]
-    clear[mine] = ~np.isin(shapes.elements[shape], list(unclear_nodes(context)))
-    plane = np.isin(shape, context.children(shapes.rows, "plane", Rows).owner)
-    flat[mine[plane]] = True  # turned as its normal says
-    mine, shape = mine[~plane], shape[~plane]
-    # The body of a mesh stands at its centre of mass.
-    meshes = np.array([row for row, _ in shapes.meshes()], np.int64)
-    known[mine] = ~framed[mine] & ~np.isin(shape, meshes)
-    mine, shape = mine[~framed[mine]], shape[~framed[mine]]
-    made.put(
-        mine, poses_of_steps(Steps.of(context.at(AttachmentRows, shapes.elements))).take(shape)
-    )
-    rods = np.zeros(len(shapes.elements), np.bool_)
+def rods(context: Context) -> Callable[[Array, Poses], Poses]:
+    """What turns the poses of some shapes to the profile's axes, where they are long."""
+    shapes = shapes_of(context)
+    long = np.zeros(len(shapes.elements), np.bool_)
     for name in ("capsule", "cylinder"):
         found = context.children(shapes.rows, name, Rows)
         height, _ = context.scalars(found, "height")
-        rods[found.owner] = height != 0.0
-    turning = mine[rods[shape]]
-    if len(turning):
-        pose = made.take(turning)
-        turn = quaternion_product(pose.orientations, np.broadcast_to(_ROD, (len(turning), 4)))
-        made.put(turning, Poses.of(len(turning), pose.positions, turn, moved=pose.moved))
-    return made, known, flat, clear
+        long[found.owner] = height != 0.0
 
+    def turned(rows: Array, poses: Poses) -> Poses:
+        turning = np.flatnonzero(long[rows])
+        if len(turning):
+            pose = poses.take(turning)
+            turn = quaternion_product(pose.orientations, np.broadcast_to(_ROD, (len(turning), 4)))
+            poses.put(turning, Poses.of(len(turning), pose.positions, turn, moved=pose.moved))
+        return poses
 
-def _velocities(context: Context, profile: Profile) -> Iterator[Hit]:
-    instances = context.rows(Rows, "instance_rigid_body")
-    common = context.children(instances, "technique_common", Rows)
-    assert instances.ordinals is not None
-    for name, other, factor in (
-        ("linear_velocity", "velocity", 1.0), ("angular_velocity", "angular_velocity", DEGREE),
-    ):  # fmt: skip
-        kept, _, values = profile.values(name, 3, "motion")
-        if not len(kept):
-            continue
-        stated, places = context.vectors(common, other, 3)
-        mine, at = _matched(instances.ordinals[common.owner], profile.holders(kept))
-        one, two = stated[at] * factor, values[mine]
-        scale = np.maximum(np.abs(one), np.abs(two)).max(axis=1, initial=0.0)
-        apart = np.abs(one - two).max(axis=1, initial=0.0) > _DIGITS * scale
-        apart &= scale < 1e300  # of the largest, the common profile says only that they are large
-        for row in np.flatnonzero(apart & (places[at] >= 0)).tolist():
-            yield _hit(name.replace("_", " "), int(kept[mine[row]]), one[row], two[row],
-                       int(places[at[row]]))  # fmt: skip
+    return turned
 
 
 def limits(context: Context) -> Iterator[Hit]:
@@ -321,9 +288,9 @@ def limits(context: Context) -> Iterator[Hit]:
                 kept.tolist(), profile.holders(kept).tolist(), values, wrong.tolist(), strict=True
             ):
                 row = at.get(holder, -1)
-                if row >= 0 and not told and not _same(stated[row] * factor, value):
+                if row >= 0 and not told and not same(stated[row] * factor, value):
                     what = f"{part} of the {name.replace('_', ' ')}"
-                    yield _hit(what, element, stated[row] * factor, value, holder)
+                    yield old(what, element, stated[row] * factor, value, holder)
 
 
 def worlds(context: Context) -> Iterator[Hit]:
@@ -343,12 +310,12 @@ def worlds(context: Context) -> Iterator[Hit]:
             kept.tolist(), profile.holders(kept).tolist(), values, strict=True
         ):
             row = at.get(holder, -1)
-            if row < 0 or places[row] < 0 or _is_told(stated[row], value):
+            if row < 0 or places[row] < 0 or is_told(stated[row], value):
                 continue
-            if name == "time_step" and not stated[row, 0] > 0.0:
+            if name == "time_step" and not min(stated[row, 0], value[0]) > 0.0:
                 continue
-            if not _same(stated[row], value):
-                yield _hit(name.replace("_", " "), element, stated[row], value, int(places[row]))
+            if not same(stated[row], value):
+                yield old(name.replace("_", " "), element, stated[row], value, int(places[row]))
 
 
-CHECKS = (masses, sizes, radii, materials, motions, limits, worlds)
+CHECKS = (masses, inertias, fixed, kinds, sizes, radii, materials, limits, worlds)

@@ -47,6 +47,9 @@ def normals(context: Context) -> Iterator[Hit]:
         source = int(inputs.sources[row])
         if semantic not in _DIRECTIONS or source < 0 or source in seen or row in unfit:
             continue
+        owner = int(inputs.owners[row])
+        if context.name(owner) == "vertices" and inputs.named(owner, "POSITION") < 0:
+            continue  # the semantic may be wrong, and that is told
         seen.add(source)
         items = table.numbers(source)
         if items is None or not len(items):

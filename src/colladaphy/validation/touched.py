@@ -49,27 +49,22 @@ def touched(before: Copy, after: Copy) -> Touched:
     if not changed:
         return Touched()
     elements = {number: element for element, number in before.by_element.items()}
-    now = {number: element for element, number in after.by_element.items()}
-    names = set()
-    for number in changed:
-        old, new = elements[number], now.get(number)
-        set_aside = new is None or new.getparent() is None or _is_set_aside(new)
-        for key in ("id", "sid"):
-            name = old.get(key)
-            if name and (set_aside or new is None or new.get(key) != name):
-                names.add(name)
-    there = {element.get(key) for element in after.by_element for key in ("id", "sid")}
     return Touched(
         frozenset(changed),
         frozenset(_spread(changed, elements, before)),
-        frozenset(names - there),
+        frozenset(_names(before.tree) - _names(after.tree)),
         any(local(elements[number]) in _MOVING for number in changed),
     )
 
 
-def _is_set_aside(element: etree._Element) -> bool:
-    parent = element.getparent()
-    return parent is not None and str(parent.tag).startswith(f"{{{CONFORM}}}")
+def _names(tree: etree._ElementTree) -> set[str]:
+    """The ids and sids of a document, but for those of what was set aside."""
+    aside = {inner for moved in tree.iter(f"{{{CONFORM}}}*") for inner in moved.iter(etree.Element)}
+    found: set[str] = set()
+    for element in tree.iter(etree.Element):
+        if element not in aside:
+            found.update(name for key in ("id", "sid") if (name := element.get(key)))
+    return found
 
 
 def _changed(before: Copy, after: Copy) -> set[int]:
