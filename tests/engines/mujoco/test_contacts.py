@@ -200,7 +200,7 @@ def test_pairs_of_many_materials_cost_no_setup() -> None:
     assert bounced[590] > bounced[300] > bounced[10]
 
 
-@pytest.mark.parametrize(("jointed", "count", "seconds"), [(False, 12_000, 7), (True, 6000, 9)])
+@pytest.mark.parametrize(("jointed", "count", "seconds"), [(False, 15_000, 7), (True, 6000, 9)])
 def test_a_long_setup_is_announced(jointed: bool, count: int, seconds: int) -> None:
     world = World((0, 0, -G), time_step=1 / 240)
     place = np.stack([np.arange(count) * 2.0, np.zeros(count), np.zeros(count)], axis=-1)

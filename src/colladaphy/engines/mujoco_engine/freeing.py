@@ -110,7 +110,11 @@ def differing(one: Any, other: Any) -> list[str]:
         if np.asarray(value).tobytes() != np.asarray(second[name]).tobytes()
     ]
     stats = ("center", "extent", "meaninertia", "meanmass", "meansize")
-    return found + [n for n in stats if np.any(getattr(one.stat, n) != getattr(other.stat, n))]
+    return found + [
+        name
+        for name in stats
+        if not np.array_equal(getattr(one.stat, name), getattr(other.stat, name), equal_nan=True)
+    ]
 
 
 @cache

@@ -6,6 +6,9 @@ bit, at every checkpoint: free bodies stand at the origin, hanging bodies at zer
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -39,6 +42,7 @@ _HARD = 2.0  # steps: the least that MuJoCo is stable with
 _MEMORY = 32 << 20
 _MEMORY_PER_SHAPE = 128 << 10
 _FEW = 100  # free bodies that MuJoCo compiles in no time
+_PART = 200  # bodies of a specification that is added to as a whole
 _FAR = 1e10  # what MuJoCo takes for infinity
 
 
@@ -63,22 +67,27 @@ class Model:
 
 def build(world: World, chosen: Chosen) -> Model:
     """Compile `world`, which `refusals.check` finds no error in; EngineError if that fails."""
-    spec = mujoco.MjSpec()
+    spec = _specification()
     _set_options(spec, world, chosen)
     forest = plan(world)
+    quick = is_quick(forest) and len(forest.order) > _FEW
     joints = {joint.sid: joint for joint in world.joints}
     used = used_materials(world)[0].tolist()
     surfaces = Surfaces.of(world, used, chosen.friction, twice=chosen.solver == "newton")
     builder = _Builder(world, spec, forest, joints, surfaces, chosen.impedance)
     builder.add_fixed()
-    for sid in forest.order:
-        builder.add_moving(sid)
+    if quick:
+        builder.add_in_parts(forest.order)
+    else:
+        for sid in forest.order:
+            builder.add_moving(sid, spec)
     for number in forest.loops:
         close(spec, joints[number], builder.bodies, _solref(world, _HARD))
     builder.add_exclusions()
     spec.memory = _MEMORY + _MEMORY_PER_SHAPE * len(builder.geoms)
     try:
-        compiled = _compiled(spec, builder.free, alone=is_quick(forest))
+        with _same_names():
+            compiled = _compiled(spec, builder.free, quick=quick)
     except (ValueError, mujoco.FatalError) as error:
         raise refuse(LIBRARY, f"MuJoCo refuses the scene: {error}") from error
     numbers = {sid: int(builder.bodies[sid].id) for sid in forest.order}
@@ -93,9 +102,9 @@ def build(world: World, chosen: Chosen) -> Model:
     return Model(compiled, forest, builder.hangings, numbers, owners, surfaces, rows, motors)
 
 
-def _compiled(spec: Any, free: list[Any], *, alone: bool) -> Any:
-    """The model; `alone` if nothing but `free` moves."""
-    if alone and len(free) > _FEW:
+def _compiled(spec: Any, free: list[Any], *, quick: bool) -> Any:
+    """The model; `quick` if nothing but `free` moves."""
+    if quick:
         try:
             return freed(spec.compile(), np.array([body.id for body in free]))
         except (ValueError, mujoco.FatalError):
@@ -110,10 +119,23 @@ def _solref(world: World, steps: float) -> list[float]:
     return [steps * float(world.time_step or 0.0), 1.0]
 
 
-def _set_options(spec: Any, world: World, chosen: Chosen) -> None:
+@contextmanager
+def _same_names() -> Iterator[None]:
+    """Parts have the names of the World; MuJoCo warns of that, as it would write them wrongly."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "Attaching a spec", UserWarning)
+        yield
+
+
+def _specification() -> Any:
+    spec = mujoco.MjSpec()
     spec.compiler.degree = False
     spec.compiler.inertiafromgeom = mujoco.mjtInertiaFromGeom.mjINERTIAFROMGEOM_FALSE
     spec.compiler.alignfree = False
+    return spec
+
+
+def _set_options(spec: Any, world: World, chosen: Chosen) -> None:
     option = spec.option
     option.timestep = world.time_step
     option.gravity = world.gravity
@@ -169,11 +191,20 @@ class _Builder:
             body = self._add_body(sid, self.spec.worldbody, pose)
             self._add_geoms(body, sid)
 
-    def add_moving(self, sid: int) -> None:
-        """A body that moves: free, or hanging on another one."""
+    def add_in_parts(self, sids: list[int]) -> None:
+        """Bodies that are free: each that is added takes a look at all that are in its part."""
+        for start in range(0, len(sids), _PART):
+            part = _specification()
+            for sid in sids[start : start + _PART]:
+                self.add_moving(sid, part)
+            with _same_names():
+                self.spec.attach(part, frame=self.spec.worldbody.add_frame(), prefix="")
+
+    def add_moving(self, sid: int, spec: Any) -> None:
+        """A body that moves: free, and then in `spec`, or hanging on another one."""
         link = self.forest.links.get(sid)
         if link is None:
-            body = self._add_body(sid, self.spec.worldbody, ORIGIN)
+            body = self._add_body(sid, spec.worldbody, ORIGIN)
             self.free.append(body)
         else:
             joint = self.joints[link.joint]

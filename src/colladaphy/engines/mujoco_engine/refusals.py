@@ -47,7 +47,7 @@ MOST = 1e10
 _MOST_MASS = 1e20
 # Seconds for the square of the number of bodies, with joints and without, on a machine of 2024.
 _COMPILE = 2.5e-7
-_COMPILE_FREE = 5e-8
+_COMPILE_FREE = 3e-8
 _LONG = 5.0  # seconds worth a word
 _DEEP = 1e-4  # of the size of a body: an overlap worth a word
 
