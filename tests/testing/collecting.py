@@ -34,6 +34,12 @@ def drawn(strategy: st.SearchStrategy[T], count: int) -> list[T]:
     return found
 
 
+def any_one(strategy: st.SearchStrategy[T], condition: object) -> T:
+    """Some example that fulfils a condition, always the same."""
+    options = settings(USUAL, max_examples=2000, phases=[Phase.generate])
+    return find(strategy, condition, settings=options)  # type: ignore[arg-type]
+
+
 def smallest(strategy: st.SearchStrategy[T], condition: object) -> T:
     """The simplest example that fulfils a condition."""
     options = settings(USUAL, max_examples=2000)

@@ -13,7 +13,7 @@ from colladaphy.testing import LinkedFiles, linked_files
 from colladaphy.world import compare
 
 
-@settings(max_examples=60)
+@settings(max_examples=max(20, settings().max_examples // 2))
 @given(files=linked_files())
 def test_all_files_are_valid_and_mean_what_one_means(files: LinkedFiles) -> None:
     alone = colladaphy.read(files.alone).load()
