@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import io
+import re
+
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from lxml import etree
 from tests.conform.documents import (
@@ -20,8 +23,11 @@ from tests.conform.documents import (
     words,
 )
 
+import colladaphy
 from colladaphy.conform.frames import transform_of
 from colladaphy.conform.numerals import plain_numbers, spelled_number
+from colladaphy.testing import worlds
+from colladaphy.world import World, compare
 
 
 @pytest.mark.parametrize(
@@ -266,3 +272,19 @@ def test_frames_that_conform_writes_say_where_they_are() -> None:
         physics(f"<mass>1</mass><mass_frame><matrix>{matrix}</matrix></mass_frame>{BOX}")
     )
     assert words(root, "mass_frame/translate") == ["0", "0", "0"]
+
+
+@settings(max_examples=15, deadline=None)
+@given(worlds(), st.integers(1, 30))
+def test_numbers_are_read_around_comments(world: World, length: int) -> None:
+    """Also where one stands in the midst of a number, in anything that repair looks at."""
+    stream = io.BytesIO()
+    colladaphy.write(world, stream)
+
+    def cut(found: re.Match[bytes]) -> bytes:
+        text = found.group(1)
+        pieces = (text[at : at + length] for at in range(0, len(text), length))
+        return b">" + b"<!-- x --><?y?>".join(pieces) + b"<"
+
+    data = re.sub(rb">([^<&]{2,400})<", cut, stream.getvalue())
+    assert compare(world, colladaphy.read(data, repair=True).load()) == []

@@ -23,8 +23,10 @@ __all__ = [
     "OWN_MAP",
     "Context",
     "local",
+    "settle_notes",
     "standard_elements",
     "standard_elements_with",
+    "text_of",
 ]
 
 NS = "{" + NAMESPACE + "}"
@@ -188,7 +190,7 @@ class Context:
         `digits` becomes the number of significant digits that the file has for such values: what
         is computed from them is no more exact than they were.
         """
-        words = (element.text or "").split()
+        words = settle_notes(element).split()
         self.digits = max([self.digits, *(digits_of(word) for word in words)])
         element.text = " ".join(_spell(value) for value in values)
         return " ".join(words)
@@ -385,3 +387,18 @@ def clone(element: etree._Element) -> etree._Element:
     twin = copy.deepcopy(element)
     twin.tail = None
     return twin
+
+
+def text_of(element: etree._Element) -> str:
+    """The text of an element, around comments."""
+    return (element.text or "") + "".join(child.tail or "" for child in element)
+
+
+def settle_notes(element: etree._Element) -> str:
+    """Put comments in a text that is to be changed before its element; gives the text."""
+    text = text_of(element)
+    for note in list(element):
+        note.tail = None
+        element.addprevious(note)
+    element.text = text
+    return text

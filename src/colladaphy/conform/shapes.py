@@ -5,7 +5,15 @@ from __future__ import annotations
 from lxml import etree
 
 from colladaphy.conform import shape_rules
-from colladaphy.conform.context import NS, Context, append, insert, local, remove
+from colladaphy.conform.context import (
+    NS,
+    Context,
+    append,
+    insert,
+    local,
+    remove,
+    settle_notes,
+)
 from colladaphy.conform.solids import (
     SEGMENTS,
     Ring,
@@ -85,7 +93,7 @@ def extend_capsule_radii(context: Context) -> None:
             or not context.wants(shape_rules.CAPSULE_RADIUS)
         ):
             continue
-        words = (radius.text or "").split()
+        words = settle_notes(radius).split()
         first, last = words[0], words[-1]
         before = " ".join(words)
         radius.text = f"{first} {first} {last}"
@@ -107,7 +115,7 @@ def mend_radii(context: Context) -> None:
                 assert value is not None
                 if not context.wants(shape_rules.SHAPE_SIZE):
                     continue
-                one = (value.text or "").strip()
+                one = settle_notes(value).strip()
                 value.text = " ".join([one] * wanted)
                 message = f"<{name}> of a {solid} was {one}, is now {value.text}"
                 context.note(shape_rules.SHAPE_SIZE, value, message)
@@ -118,7 +126,7 @@ def _mend_sphere(context: Context, sphere: etree._Element) -> None:
     values = numbers_of(radius)
     if radius is None or len(values) < 2 or not context.wants(shape_rules.SPHERE_RADII):
         return
-    before = " ".join((radius.text or "").split())
+    before = " ".join(settle_notes(radius).split())
     if len(set(values)) == 1:
         radius.text = before.split()[0]
         message = f"sphere radius was {before}, is now {radius.text}"

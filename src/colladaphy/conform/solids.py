@@ -11,7 +11,7 @@ from itertools import pairwise
 
 from lxml import etree
 
-from colladaphy.conform.context import Context, append
+from colladaphy.conform.context import Context, append, text_of
 from colladaphy.conform.numerals import plain_numbers
 
 __all__ = [
@@ -129,10 +129,10 @@ def are_usable(values: Sequence[float]) -> bool:
 
 def numbers_of(element: etree._Element | None) -> list[float]:
     """The numbers in an element's text; none where any word is no number."""
-    if element is None or not element.text:
+    text = "" if element is None else text_of(element)
+    if not text:
         return []
     try:
-        text = element.text
         return [float(w) for w in (plain_numbers(text)[0] if "," in text else text).split()]
     except ValueError:
         return []
