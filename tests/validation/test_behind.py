@@ -450,8 +450,18 @@ def test_of_large_documents_faults_of_form_are_told_first(monkeypatch: pytest.Mo
     assert {"schema-unexpected-element", "link-missing"} <= told
     monkeypatch.setattr("colladaphy.validation.behind.LARGE", len(data))
     findings = list(colladaphy.validate(data))
+    # The node itself is left out, for what is wrong in it.
     assert [finding.code for finding in findings] == ["schema-large", "schema-unexpected-element"]
     assert findings[1].line == 1
+    beside = data.replace(b'<node id="a">', b'<node><instance_node url="#a"/></node>'
+                          b'<node><instance_node url="#lost"/></node><node id="a">')  # fmt: skip
+    findings = list(colladaphy.validate(beside))
+    assert sorted(finding.code for finding in findings) == [
+        "link-missing", "schema-large", "schema-unexpected-element",
+    ]  # fmt: skip
+    assert next(f for f in findings if f.code == "link-missing").path == (
+        "/COLLADA/library_nodes/node[2]/instance_node"
+    )
     monkeypatch.setattr("colladaphy.validation.stages.LARGE", 0)
     valid = data.replace(b"<wrong/>", b"")
     missing = next(f for f in colladaphy.validate(valid) if f.code == "link-missing")

@@ -116,7 +116,7 @@ OTHER = Rule(
 LARGE = Rule(
     "schema-large",
     Severity.INFO,
-    "The document is large: what stands behind its faults of form was not looked at.",
+    "The document is large: what its faulty records themselves mean was not looked at.",
     "Mend them ('colladaphy repair IN OUT'), and check the result.",
     "colladaphy docs/validate.md",
     "A copy of it would have to be mended first, which takes minutes.",

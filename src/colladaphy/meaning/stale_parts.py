@@ -183,6 +183,8 @@ def frames(context: Context) -> Iterator[Hit]:
         return
     table, unclear = constraints_of(context), unclear_nodes(context)
     at = {element: row for row, element in enumerate(table.elements.tolist())}
+    shapes = shapes_of(context)
+    flat = set(shapes.holders[context.children(shapes.rows, "plane", Rows).owner].tolist())
     for side, name in enumerate(("frame1", "frame2")):
         places = _by_parent(profile, "position", 3, name)
         turns = _by_parent(profile, "orientation", 4, name)
@@ -193,6 +195,8 @@ def frames(context: Context) -> Iterator[Hit]:
             row = at.get(holder, -1)
             attachment = -1 if row < 0 else int(table.attachments[row, side])
             told = [each[frame][1] for each in (places, turns) if frame in each]
+            if row >= 0 and int(table.bodies[row, side]) in flat:
+                continue  # of a plane, the frame is in the pose of its normal
             if row < 0 or attachment < 0 or attachment in unclear or is_told(*told):
                 continue
             stated = table.frames[side].take(np.array([row]))

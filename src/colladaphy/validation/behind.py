@@ -22,6 +22,7 @@ from colladaphy.meaning import Hit, findings_of, hits_of
 from colladaphy.meaning.profile import strangers
 from colladaphy.meaning.profile_rules import NAMESPACE
 from colladaphy.source import COLLADA_1_4, COLLADA_1_5
+from colladaphy.validation.apart import without
 from colladaphy.validation.copies import Copy
 from colladaphy.validation.mendable import with_repairs
 from colladaphy.validation.older import violations_1_4
@@ -72,10 +73,10 @@ def check_behind(came: Came, first: Found | None, options: Options) -> list[Find
     """Everything that is wrong with a document that is not valid COLLADA 1.5.
 
     `first` is what libxml2 says of a document of 1.5; None for another version. Of a large one no
-    copy is mended.
+    copy is mended: the records that are faulty are left out.
     """
     if first and len(came.data) >= LARGE:
-        return came.told([*_of_form(came, first), Hit(rules.LARGE, 0, rules.LARGE.summary)])
+        return came.told([*_of_form(came, first), *_behind_large(came, first)])
     whole = Copy.of(came.tree)
     current = whole
     hits: list[Hit] = []
@@ -135,6 +136,20 @@ def _of_form(came: Came, first: Found) -> list[Hit]:
         Hit(said.rule, numbers[element], said.message, (), said.attribute)
         for element, said in first
     ]
+
+
+def _behind_large(came: Came, first: Found) -> list[Hit]:
+    """What the rest of a large document means, without the records that are faulty."""
+    whole = Copy.of(came.tree)
+    rest, done = without(whole, {element for element, _ in first})
+    if rest.tree.getroot() is None or violations(rest.tree):
+        message = "The document is large: what stands behind its faults was not looked at."
+        return [Hit(rules.LARGE, 0, message)]
+    shown = rest.in_our_spelling()
+    ours = _Ours(done, whole, whole)
+    meant = _translated(hits_of(came.read(shown.tree), came.exists), shown)
+    hits = [hit for hit in meant if not ours.has_part_in(hit)]
+    return [*hits, Hit(rules.LARGE, 0, rules.LARGE.summary)]
 
 
 def _translated(hits: Iterable[Hit | Finding], copy: Copy) -> list[Hit]:

@@ -12,7 +12,7 @@ from colladaphy.conform.context import CONFORM, local
 from colladaphy.conform.grammar import all_types
 from colladaphy.validation.copies import Copy
 
-__all__ = ["SEPARATORS", "Touched", "touched"]
+__all__ = ["SEPARATORS", "Touched", "holds_others", "taken_out", "touched"]
 
 _ENDS = frozenset(
     {"COLLADA", "visual_scene", "physics_scene", "physics_model", "kinematics_model", "animation"}
@@ -54,6 +54,22 @@ def touched(before: Copy, after: Copy) -> Touched:
         frozenset(_spread(changed, elements, before)),
         frozenset(_names(before.tree) - _names(after.tree)),
         any(local(elements[number]) in _MOVING for number in changed),
+    )
+
+
+def taken_out(whole: Copy, tops: set[int], gone: set[int]) -> Touched:
+    """What changes where some elements are taken out of a document, with all that is in them."""
+    elements = {number: element for element, number in whole.by_element.items()}
+    changed = gone | {whole.parents[top] for top in tops if top in whole.parents}
+    left = {name for element, number in whole.by_element.items() if number not in gone
+            for key in ("id", "sid") if (name := element.get(key))}  # fmt: skip
+    lost = {name for number in gone for key in ("id", "sid")
+            if (name := elements[number].get(key))}  # fmt: skip
+    return Touched(
+        frozenset(changed),
+        frozenset(_spread(changed, elements, whole)),
+        frozenset(lost - left),
+        any(local(elements[number]) in _MOVING for number in gone),
     )
 
 
@@ -132,10 +148,15 @@ def _spread(changed: set[int], elements: dict[int, etree._Element], before: Copy
         for key in ("id", "sid"):
             waiting += referring.get(changed_one.get(key) or "", ())
         above = changed_one.getparent()
-        if above is not None and not _is_end(local(above)) and local(above) != local(changed_one):
+        if (
+            above is not None
+            and not holds_others(local(above))
+            and local(above) != local(changed_one)
+        ):
             waiting.append(before.by_element[above])
     return found
 
 
-def _is_end(name: str) -> bool:
+def holds_others(name: str) -> bool:
+    """Whether elements of a name are what they are, whatever one of their children is."""
     return name in _ENDS or name.startswith("library_")
