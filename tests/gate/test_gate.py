@@ -310,3 +310,10 @@ def test_validity_can_be_told_without_a_tree(text: str, valid: bool) -> None:
 def test_validity_is_told_of_one_text_at_a_time() -> None:
     assert not is_valid_text(document(nodes('<node id="a"><nonsense/></node>')))
     assert is_valid_text(document(nodes('<node id="a"/>')))
+
+
+@pytest.mark.parametrize("letter", ["x", "é", "漢"])
+def test_long_names_are_told_wherever_libxml2_cuts_them(letter: str) -> None:
+    for length in range(30, 190):
+        (found,) = findings(nodes(f'\n<a:{"a" * (length % 2)}{letter * length} xmlns:a="urn:a"/>'))
+        assert found.code == "schema-unexpected-element" and found.line in (1, 2)

@@ -84,9 +84,17 @@ def _validate(tree: _ElementTree, schema: etree.XMLSchema | None = None) -> list
     with _LOCK:  # the schema object keeps the log of its last run
         schema.validate(tree)
         log: Any = schema.error_log
-        entries = [(entry.path, entry.type, entry.message) for entry in log]
+        entries = [(_path(entry), entry.type, entry.message) for entry in log]
     places = Places(tree.getroot())
-    return [(places.element(path or "/*"), code, message) for path, code, message in entries]
+    return [(places.element(path), code, message) for path, code, message in entries]
+
+
+def _path(entry: Any) -> str:
+    """Where an element is; that of its parent where libxml2 cuts a long name within a letter."""
+    try:
+        return entry.path or "/*"
+    except UnicodeDecodeError as error:
+        return error.object.decode("utf-8", "ignore")
 
 
 def _clean(violations: list[_Found]) -> list[_Found]:
