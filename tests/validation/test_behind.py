@@ -462,6 +462,9 @@ def test_of_large_documents_faults_of_form_are_told_first(monkeypatch: pytest.Mo
     assert next(f for f in findings if f.code == "link-missing").path == (
         "/COLLADA/library_nodes/node[2]/instance_node"
     )
+    monkeypatch.setattr("colladaphy.validation.behind.HUGE", len(beside))
+    codes = [finding.code for finding in colladaphy.validate(beside)]
+    assert codes == ["schema-large", "schema-unexpected-element"]
     monkeypatch.setattr("colladaphy.validation.stages.LARGE", 0)
     valid = data.replace(b"<wrong/>", b"")
     missing = next(f for f in colladaphy.validate(valid) if f.code == "link-missing")

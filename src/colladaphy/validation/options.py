@@ -12,6 +12,9 @@ LARGE = 1 << 23
 """Bytes of documents of which no copy is mended, neither to look at what is behind their faults
 of form, nor to tell which repair mends a finding: that takes many times as long as the check."""
 
+HUGE = 1 << 25
+"""Bytes of documents of which nothing is looked at behind their faults of form."""
+
 
 @dataclass(frozen=True, slots=True)
 class Options:
