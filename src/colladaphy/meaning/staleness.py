@@ -107,12 +107,16 @@ def inertias(context: Context) -> Iterator[Hit]:
         stated = np.sort(bodies.inertias[row])
         if is_told(stated, value) or not (stated > 0.0).all():
             continue
-        tensor = value.reshape(3, 3)
-        moments = np.linalg.eigvalsh((tensor + tensor.T) / 2.0)
+        size = float(np.abs(value).max())
+        if not size > 0.0:
+            continue
+        tensor = value.reshape(3, 3) / size  # so that the largest do not overflow
+        moments, stated = np.linalg.eigvalsh((tensor + tensor.T) / 2.0), stated / size
         if not (moments > 0.0).all() or moments[0] + moments[1] < moments[2] * (1.0 - 1e-3):
             continue  # told elsewhere
         if float(np.abs(moments - stated).max()) > 10.0 * DIGITS * float(moments[2]):
-            yield old("inertia", element, stated, moments, int(bodies.inertia_elements[row]))
+            yield old("inertia", element, stated * size, moments * size,
+                      int(bodies.inertia_elements[row]))  # fmt: skip
 
 
 def fixed(context: Context) -> Iterator[Hit]:
