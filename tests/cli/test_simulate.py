@@ -156,7 +156,7 @@ def test_outputs_are_checked_before_the_run(
     for arguments, what in (
         ((tmp_path / "none" / "out.dae",), "There is no folder"),
         ((tmp_path / "folder",), "is a folder"),
-        (("--trajectory", "motion.csv"), ".npz or .zarr"),
+        (("--trajectory", "motion.csv"), ".npz nor .zarr"),
         (("--trajectory", "none/motion.npz"), "There is no folder"),
         ((tmp_path / "out.npz", "--trajectory", "out.npz"), "another file"),
         (("--engine", "bullet"), "pymunk"),
