@@ -33,7 +33,8 @@ _LARGEST = 2.9e306
 
 def significant_digits(word: bytes) -> int:
     """How many significant digits a number is written with."""
-    mantissa = word.lower().partition(b"e")[0].lstrip(b"+-")
+    # Java and Python write `.0` behind whole numbers, which are no more exact by it.
+    mantissa = word.lower().partition(b"e")[0].lstrip(b"+-").removesuffix(b".0")
     digits = mantissa.replace(b".", b"").lstrip(b"0")
     if b"." not in mantissa:
         digits = digits.rstrip(b"0")
