@@ -573,3 +573,16 @@ def test_every_rule_is_listed_once() -> None:
     assert all(code.startswith("downgrade-bullet-") for code in listed)
     declared = {rule.code for rule in vars(rules).values() if isinstance(rule, Rule)}
     assert declared == {*listed}
+
+
+def test_what_a_shape_weighs_that_is_left_out_stays_with_the_body(export: Export) -> None:
+    box = BOX.replace("<box>", "<mass>2</mass><box>")
+    lost = (
+        "<shape><mass>6</mass><instance_geometry url='#none'/><translate>4 0 0</translate></shape>"
+    )
+    text, findings = export(document(body(box + lost)))
+    assert codes(findings)[:2] == ["mass", "shape"]
+    read = bullet_reader.read(text)
+    assert read.bodies[0].mass == 8.0
+    # Six eighths of the way to the shape that is not there, which is where it weighs.
+    assert np.allclose(read.bodies[0].pose[:3, 3], (3.0, 0.0, 0.0))

@@ -198,5 +198,4 @@ def physics_for_bullet(data: bytes) -> None:
         assert float(np.abs(places - place).max(axis=1).min()) < 1e-4 * size
 
 
-# A shape that is left out takes its mass with it, which shifts the centre, too.
-_LOST = {"downgrade-bullet-scene-removed", "downgrade-bullet-no-shape", "downgrade-bullet-shape"}
+_LOST = {"downgrade-bullet-scene-removed", "downgrade-bullet-no-shape"}

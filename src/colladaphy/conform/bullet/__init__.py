@@ -92,7 +92,7 @@ def _write_bodies(
     for level in all_levels:
         for body in list(level.bodies):
             fold(draft, body)
-            if not drop_unreadable_shapes(draft, body, geometries):
+            if not drop_unreadable_shapes(draft, body, geometries, weights):
                 message = f"The body {body.sid!r} has no shape that Bullet can read."
                 draft.note(rules.NO_SHAPE, body.instance, message)
                 body.is_aside = True

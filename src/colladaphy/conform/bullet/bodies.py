@@ -97,13 +97,20 @@ def hold_still(draft: Draft, body: Body, why: str) -> None:
         draft.note(rules.MADE_STATIC, body.element, f"The body {body.sid!r} {why}.")
 
 
-def drop_unreadable_shapes(draft: Draft, body: Body, geometries: Geometries) -> bool:
-    """Leave out shapes that Bullet cannot read; whether one is left."""
+def drop_unreadable_shapes(
+    draft: Draft, body: Body, geometries: Geometries, weights: Weights
+) -> bool:
+    """Leave out shapes that Bullet cannot read; whether one is left.
+
+    What they weigh, and where, stays with the body.
+    """
     common = _common(body.element)
     shapes = children(common, "shape")
     good = [shape for shape in shapes if is_readable(shape, geometries)]
     if not good:
         return False
+    if len(good) < len(shapes) and moves(body):
+        _keep_weight(draft, body, weights)
     for shape in shapes:
         if shape not in good:
             url = geometry_of(shape).get("url")
@@ -111,6 +118,18 @@ def drop_unreadable_shapes(draft: Draft, body: Body, geometries: Geometries) -> 
             draft.note(rules.SHAPE_LEFT_OUT, shape, message)
             draft.keep(shape)
     return True
+
+
+def _keep_weight(draft: Draft, body: Body, weights: Weights) -> None:
+    """Write out mass and centre of a body whose shapes say them, all of them."""
+    common = _common(body.element)
+    steps = pose_steps(draft, weights.center_of_mass(common))
+    if first(common, "mass_frame") is None and steps:
+        frame = draft.make("mass_frame")
+        put_steps(frame, steps)
+        _insert_in_order(common, frame)
+    if math.isfinite(sum(weights.masses(common))):
+        write_mass(draft, body, weights)
 
 
 # -- mass -------------------------------------------------------------------------------------

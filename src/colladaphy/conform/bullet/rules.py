@@ -82,7 +82,7 @@ NO_SHAPE = Rule(
 SHAPE_LEFT_OUT = Rule(
     "downgrade-bullet-shape",
     _WARNING,
-    "a shape that Bullet cannot read was left out",
+    "a shape that Bullet cannot read was left out; what it weighs stays with the body",
     "tessellate the geometry",
     section="COLLADA 1.5 §shape",
     why="what touched that shape touches nothing in Bullet",

@@ -66,8 +66,9 @@ class Weights:
             return transform_of(frame)
         weighted, total = np.zeros(3), 0.0
         for shape, mass in zip(children(common, "shape"), self.masses(common), strict=True):
-            solid = solid_of(shape, self._geometries)
-            if solid is not None and 0.0 < mass < math.inf:
-                weighted += mass * (transform_of(shape) @ [*solid.center, 1.0])[:3]
+            if 0.0 < mass < math.inf:
+                solid = solid_of(shape, self._geometries)
+                inner = np.zeros(3) if solid is None else solid.center
+                weighted += mass * (transform_of(shape) @ [*inner, 1.0])[:3]
                 total += mass
         return translation((weighted / total).tolist()) if total > 0.0 else np.eye(4)
