@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from colladaphy.columns.reading import Document
-from colladaphy.columns.thinning import thinned
+from colladaphy.columns.thinning import Thinned, thinned
 from colladaphy.errors import XmlError
 from colladaphy.gate import accepts, gate
 from colladaphy.gate.numerals import incomplete_numbers
@@ -35,6 +35,8 @@ class Verdict:
     where it is False, a tree has to tell."""
     columns: Document | None = None
     """Its columns, where they were read on the way."""
+    thinned: Thinned | None = None
+    """What is left of it without what repeats, where a fault has to be in that."""
 
 
 def judge(data: bytes, limits: Limits = _DEFAULTS) -> Verdict:
@@ -44,12 +46,13 @@ def judge(data: bytes, limits: Limits = _DEFAULTS) -> Verdict:
     found = thinned(data)
     if found is None:
         return Verdict(accepts(data, limits))
-    rest, index, tags = found
-    if len(rest) > _REGULAR * len(data):
-        accepted = accepts(data, limits)
+    if len(found.rest) > _REGULAR * len(data):
+        accepted, few = accepts(data, limits), False
     else:
-        accepted = accepts(rest, limits) or _passes(rest, limits)
-    return Verdict(accepted, Document.of_index(index, tags, data) if accepted else None)
+        accepted, few = accepts(found.rest, limits) or _passes(found.rest, limits), True
+    if accepted:
+        return Verdict(True, Document.of_index(found.index, found.tags, data))
+    return Verdict(False, None, found if few else None)
 
 
 def _passes(data: bytes, limits: Limits) -> bool:

@@ -8,6 +8,7 @@ the whole. The few content models that are otherwise keep all their elements.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
@@ -23,7 +24,7 @@ from colladaphy.columns.sure import unsure
 from colladaphy.columns.tags import Tags, tags_of
 from colladaphy.columns.texts import Ranges
 
-__all__ = ["thinned"]
+__all__ = ["Thinned", "thinned"]
 
 Array = NDArray[Any]
 
@@ -33,8 +34,35 @@ _ODD: Final = 1000
 """References and comments beyond which a document is not regular."""
 
 
-def thinned(data: bytes) -> tuple[bytes, Index, Tags] | None:
-    """A document without what repeats, with its index; None where nothing is known of it."""
+@dataclass(frozen=True, slots=True)
+class Thinned:
+    """A document without what repeats."""
+
+    rest: bytes
+    index: Index
+    """That of the whole document."""
+    tags: Tags
+    paths: Array
+    """(n,) numbers of the paths of all elements."""
+    begins: Array
+    """(k,) where what is left out begins."""
+    stops: Array
+
+    def rows(self) -> Array:
+        """(n,) the numbers, in the whole document, of the elements that are left."""
+        opens = self.index.start - 1
+        gap = np.searchsorted(self.begins, opens, side="right") - 1
+        return np.flatnonzero((gap < 0) | (opens >= np.append(self.stops, 0)[gap]))
+
+    def are_alone(self, rows: Array) -> Array:
+        """Whether no element of the paths of some is left out (n,)."""
+        left = np.bincount(self.paths[self.rows()], minlength=int(self.paths.max()) + 1)
+        every = np.bincount(self.paths, minlength=len(left))
+        return np.asarray((left == every)[self.paths[rows]])
+
+
+def thinned(data: bytes) -> Thinned | None:
+    """A document without what repeats; None where nothing is known of it."""
     if not _characters_are_legal(data):
         return None
     taken = direct(data)
@@ -57,7 +85,8 @@ def thinned(data: bytes) -> tuple[bytes, Index, Tags] | None:
         return None
     kept = _kept(index, tags, paths)
     kept[np.maximum(np.searchsorted(index.start, odd) - 1, 0)] = True
-    return _cut(data, index, kept), index, tags
+    begins, stops = _gaps(index, kept)
+    return Thinned(_cut(data, begins, stops), index, tags, paths.numbers, begins, stops)
 
 
 _NONE: Final = np.zeros(0, np.int64)
@@ -121,8 +150,8 @@ def _kept(index: Index, tags: Tags, paths: Paths) -> Array:
     return kept
 
 
-def _cut(data: bytes, index: Index, kept: Array) -> bytes:
-    """The document without elements that nothing kept is in, between two others of their name."""
+def _gaps(index: Index, kept: Array) -> tuple[Array, Array]:
+    """Where elements that nothing kept is in, between two others of their name, begin and stop."""
     parent = index.parent
     order = np.argsort(index.level, kind="stable")
     cuts = np.searchsorted(index.level[order], np.arange(1, int(index.level.max()) + 2)).tolist()
@@ -145,7 +174,7 @@ def _cut(data: bytes, index: Index, kept: Array) -> bytes:
         may &= whole[around[1:-1]]
         gone.append((index.start[middle[may]] - 1, index.start[rows[2:][may]] - 1))
     if not gone:
-        return data
+        return _NONE, _NONE
     begins = np.concatenate([begin for begin, _ in gone])
     stops = np.concatenate([stop for _, stop in gone])
     sorting = np.argsort(begins)
@@ -153,7 +182,13 @@ def _cut(data: bytes, index: Index, kept: Array) -> bytes:
     # Neighbours that go make one gap.
     joined = np.flatnonzero(begins[1:] != stops[:-1])
     begins = np.concatenate([begins[:1], begins[joined + 1]])
-    stops = np.concatenate([stops[joined], stops[-1:]])
+    return begins, np.concatenate([stops[joined], stops[-1:]])
+
+
+def _cut(data: bytes, begins: Array, stops: Array) -> bytes:
+    """The document without what is in the gaps."""
+    if not len(begins):
+        return data
     pieces, place = [], 0
     for begin, stop in zip(begins.tolist(), stops.tolist(), strict=True):
         pieces.append(data[place:begin])

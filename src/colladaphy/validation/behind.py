@@ -26,7 +26,7 @@ from colladaphy.validation.apart import without
 from colladaphy.validation.copies import Copy
 from colladaphy.validation.mendable import with_repairs
 from colladaphy.validation.older import violations_1_4
-from colladaphy.validation.options import HUGE, LARGE, Options
+from colladaphy.validation.options import HUGE, LARGE, NOTHING_BEHIND, Options
 from colladaphy.validation.schema_stage import Found, schema_hits, with_schema_repairs
 from colladaphy.validation.touched import SEPARATORS, Touched, touched
 
@@ -140,13 +140,12 @@ def _of_form(came: Came, first: Found) -> list[Hit]:
 
 def _behind_large(came: Came, first: Found) -> list[Hit]:
     """What the rest of a large document means, without the records that are faulty."""
-    message = "The document is large: what stands behind its faults was not looked at."
     if len(came.data) >= HUGE:
-        return [Hit(rules.LARGE, 0, message)]
+        return [Hit(rules.LARGE, 0, NOTHING_BEHIND)]
     whole = Copy.of(came.tree)
     rest, done = without(whole, {element for element, _ in first})
     if rest.tree.getroot() is None or violations(rest.tree):
-        return [Hit(rules.LARGE, 0, message)]
+        return [Hit(rules.LARGE, 0, NOTHING_BEHIND)]
     shown = rest.in_our_spelling()
     ours = _Ours(done, whole, whole)
     meant = _translated(hits_of(came.read(shown.tree), came.exists), shown)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from colladaphy.findings import Severity
 
-__all__ = ["LARGE", "Options"]
+__all__ = ["HUGE", "LARGE", "NOTHING_BEHIND", "Options"]
 
 LARGE = 1 << 23
 """Bytes of documents of which no copy is mended, neither to look at what is behind their faults
@@ -14,6 +14,8 @@ of form, nor to tell which repair mends a finding: that takes many times as long
 
 HUGE = 1 << 25
 """Bytes of documents of which nothing is looked at behind their faults of form."""
+
+NOTHING_BEHIND = "The document is large: what stands behind its faults was not looked at."
 
 
 @dataclass(frozen=True, slots=True)

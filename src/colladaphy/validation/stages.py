@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from colladaphy.errors import DocumentError, InputError, XmlError
-from colladaphy.findings import Report, Severity, unchanging
+from colladaphy.findings import Finding, Report, Severity, unchanging
 from colladaphy.gate import gate
 from colladaphy.gate.faults import violations
 from colladaphy.gate.messages import Violation
@@ -19,7 +19,7 @@ from colladaphy.source.mending import mend_text
 from colladaphy.source.places import locate
 from colladaphy.source.xml import COLLADA_1_5, root_start
 from colladaphy.validation.availability import availability
-from colladaphy.validation.options import LARGE, Options
+from colladaphy.validation.options import HUGE, LARGE, Options
 
 if TYPE_CHECKING:
     from lxml import etree
@@ -67,6 +67,8 @@ def validate(
     if verdict is not None and verdict.accepted:
         # Nothing is wrong with it up to here, and no tree is needed to know it.
         _check_valid(report, loaded, None, verdict.columns)
+    elif verdict is not None and (told := _told_without_a_tree(loaded, verdict, limits)):
+        report.extend(told)
     else:
         try:
             tree = parse_loaded(loaded).tree
@@ -121,6 +123,17 @@ def _verdict(loaded: Loaded, limits: Limits) -> Verdict | None:
     from colladaphy.columns.accepting import judge
 
     return judge(loaded.data, limits)
+
+
+def _told_without_a_tree(loaded: Loaded, verdict: Verdict, limits: Limits) -> list[Finding]:
+    """What is wrong with a very large document; none where only a tree of all of it can tell."""
+    if verdict.thinned is None or len(loaded.data) < HUGE:
+        return []
+    from colladaphy.validation.repeating import check_rest
+    from colladaphy_schema.codec import paused_collector
+
+    with unchanging(), paused_collector():
+        return check_rest(verdict.thinned, loaded, limits)
 
 
 def _check_valid(
