@@ -321,9 +321,8 @@ def _separate(
     owners: list[etree._Element],
     seen: dict[str, list[etree._Element]],
 ) -> list[str]:
-    names = [sid]
+    names, number = [sid], 2
     for owner in owners[1:]:
-        number = 2
         while f"{sid}-{number}" in seen:
             number += 1
         names.append(f"{sid}-{number}")

@@ -123,16 +123,24 @@ def _names_file(text: str) -> bool:
 
 def _hint(context: Context, id: str, expected: tuple[str, ...]) -> str | None:
     """Ids that may be meant: in another case first, then those that are nearly the same."""
-    known = context.shared(_ids_by_type)
-    some = [other for name in expected for other in known.get(name, ())]
-    folded = id.casefold()
-    same = [other for other in some if other.casefold() == folded]
-    if same:
-        return f"Ids are told apart by case: write '#{same[0]}'."
-    if len(some) > 200:  # enough to compare one by one
+    folded, known = context.shared(_ids_by_case), context.shared(_ids_by_type)
+    for name in expected:
+        if same := folded.get((name, id.casefold())):
+            return f"Ids are told apart by case: write '#{same}'."
+    if sum(len(known.get(name, ())) for name in expected) > 200:  # enough to compare one by one
         return None
+    some = [other for name in expected for other in known.get(name, ())]
     close = get_close_matches(id, some, 1)
     return f"Did you mean '#{close[0]}'?" if close else None
+
+
+def _ids_by_case(context: Context) -> dict[tuple[str, str], str]:
+    """The first id of each type of element and spelling without case."""
+    found: dict[tuple[str, str], str] = {}
+    for name, ids in context.shared(_ids_by_type).items():
+        for id in ids:
+            found.setdefault((name, id.casefold()), id)
+    return found
 
 
 def _ids_by_type(context: Context) -> dict[str, list[str]]:
