@@ -186,7 +186,17 @@ def test_common_profile_alone_is_close() -> None:
 
 
 def test_significant_digits() -> None:
-    words = {b"1": 1, b"100": 1, b"1.0": 1, b"100.0": 1, b"1.50": 3, b"0.001": 1, b"-12.50": 4, b"1.25e-7": 3, b"0": 0}
+    words = {
+        b"1": 1,
+        b"100": 1,
+        b"1.0": 1,
+        b"100.0": 1,
+        b"1.50": 3,
+        b"0.001": 1,
+        b"-12.50": 4,
+        b"1.25e-7": 3,
+        b"0": 0,
+    }
     assert {word: significant_digits(word) for word in words} == words
 
 
