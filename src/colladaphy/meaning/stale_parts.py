@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.links.names import p
-from colladaphy.links.poses import DEGREE, Poses, rotate_vectors, unit_quaternions
+from colladaphy.links.poses import DEGREE, Poses, reach, rotate_vectors, unit_quaternions
 from colladaphy.links.steps import Steps, poses_of_steps
 from colladaphy.meaning.constraint_table import AttachmentRows, constraints_of
 from colladaphy.meaning.context import Context
@@ -102,29 +102,46 @@ def _poses(context: Context, profile: Profile) -> Iterator[Hit]:
     odd.update(context.children(shapes.rows, "plane", Rows).owner.tolist())
     unclear = unclear_nodes(context)
     stated, turned = _shape_poses(context), rods(context)
+    chosen, rows, chains = [], [], []
     for shape in profile.elements("shape").tolist():
         row = at.get(pairs.get(shape, -1), -1)
         if row < 0 or row in odd or pairs[shape] in unclear:
             continue
         chain = _chain(profile, shape)
         told = [each[one][1] for one in chain for each in (places, turns) if one in each]
-        if not told or is_told(*told) or (shape not in places and shape not in turns):
-            continue
-        pose = Poses.none(1)
-        for one in reversed(chain):
-            pose = pose.then(_pose(one, places, turns))
-        mine = stated.take(np.array([row]))
-        apart = float(np.abs(pose.positions - mine.positions).max())
-        size = max(*(float(np.abs(value).max()) for value in told if len(value) == 3),
-                   float(np.abs(mine.positions).max()), 0.0, 0.0)  # fmt: skip
-        if shape in places and apart > 10.0 * DIGITS * size:
-            yield old("position", places[shape][0], mine.positions[0], pose.positions[0],
-                      int(shapes.elements[row]))  # fmt: skip
-            continue
-        if shape in turns and turns[shape][1].any():
-            one, other = turned(np.array([row]), mine).orientations[0], pose.orientations[0]
-            if min(np.abs(one - other).max(), np.abs(one + other).max()) > TURN:
-                yield old("orientation", turns[shape][0], one, other, int(shapes.elements[row]))
+        if told and not is_told(*told) and (shape in places or shape in turns):
+            chosen.append(shape)
+            rows.append(row)
+            chains.append(chain)
+    if not chosen:
+        return
+    kept, sizes = _composed(chains, places, turns)
+    mine = stated.take(np.array(rows))
+    apart = reach(kept.positions - mine.positions)
+    sizes = np.maximum(sizes, reach(mine.positions))
+    moved = np.array([shape in places for shape in chosen]) & (apart > 10.0 * DIGITS * sizes)
+    one, other = turned(np.array(rows), mine).orientations, kept.orientations
+    far = np.minimum(reach(one - other), reach(one + other)) > TURN
+    for place in np.flatnonzero(moved | far).tolist():
+        shape, element = chosen[place], int(shapes.elements[rows[place]])
+        if moved[place]:
+            yield old("position", places[shape][0], mine.positions[place], kept.positions[place],
+                      element)  # fmt: skip
+        elif shape in turns and turns[shape][1].any():
+            yield old("orientation", turns[shape][0], one[place], other[place], element)
+
+
+def _composed(
+    chains: list[list[int]], places: dict[int, tuple[int, Any]], turns: dict[int, tuple[int, Any]]
+) -> tuple[Poses, Any]:
+    """Where the innermost of chains stand, and the largest numbers (n,) that say so."""
+    made, sizes = Poses.none(len(chains)), np.zeros(len(chains))
+    for depth in range(max(map(len, chains)) - 1, -1, -1):
+        rows = np.flatnonzero([len(chain) > depth for chain in chains])
+        step = _poses_in([chains[row][depth] for row in rows.tolist()], places, turns)
+        made.put(rows, made.take(rows).then(step))
+        sizes[rows] = np.maximum(sizes[rows], reach(step.positions))
+    return made, sizes
 
 
 def springs(context: Context) -> Iterator[Hit]:
@@ -247,15 +264,21 @@ def _is_placed(profile: Profile, shape: int) -> bool:
     )
 
 
-def _pose(
-    element: int, places: dict[int, tuple[int, Any]], turns: dict[int, tuple[int, Any]]
+def _poses_in(
+    elements: list[int], places: dict[int, tuple[int, Any]], turns: dict[int, tuple[int, Any]]
 ) -> Poses:
-    made = Poses.none(1)
-    if element in places:
-        made.positions[0], made.moved[0] = places[element][1], True
-    if element in turns and turns[element][1].any():
-        made.orientations[0] = unit_quaternions(turns[element][1][None])[0]
-        made.turned[0] = True
+    """Where elements stand in the next one around them (n,)."""
+    made = Poses.none(len(elements))
+    moved = [row for row, element in enumerate(elements) if element in places]
+    if moved:
+        made.positions[moved] = [places[elements[row]][1] for row in moved]
+        made.moved[moved] = True
+    turned = [row for row, element in enumerate(elements)
+              if element in turns and turns[element][1].any()]  # fmt: skip
+    if turned:
+        given = np.array([turns[elements[row]][1] for row in turned])
+        made.orientations[turned] = unit_quaternions(given)
+        made.turned[turned] = True
     return made
 
 
