@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.links.names import p
 from colladaphy.links.poses import DEGREE, Poses, reach, rotate_vectors, unit_quaternions
 from colladaphy.links.steps import Steps, poses_of_steps
 from colladaphy.meaning.constraint_table import AttachmentRows, constraints_of
@@ -102,14 +101,14 @@ def _poses(context: Context, profile: Profile) -> Iterator[Hit]:
     odd.update(context.children(shapes.rows, "plane", Rows).owner.tolist())
     unclear = unclear_nodes(context)
     stated, turned = _shape_poses(context), rods(context)
+    faulty = _faulty(places) | _faulty(turns)
     chosen, rows, chains = [], [], []
     for shape in profile.elements("shape").tolist():
         row = at.get(pairs.get(shape, -1), -1)
         if row < 0 or row in odd or pairs[shape] in unclear:
             continue
-        chain = _chain(profile, shape)
-        told = [each[one][1] for one in chain for each in (places, turns) if one in each]
-        if told and not is_told(*told) and (shape in places or shape in turns):
+        chain = _chain(context, shape)
+        if (shape in places or shape in turns) and faulty.isdisjoint(chain):
             chosen.append(shape)
             rows.append(row)
             chains.append(chain)
@@ -243,14 +242,22 @@ def _by_parent(profile: Profile, name: str, width: int, *outer: str) -> dict[int
     }
 
 
-def _chain(profile: Profile, shape: int) -> list[int]:
+def _faulty(told: dict[int, tuple[int, Any]]) -> set[int]:
+    """What holds numbers that are none, which is told elsewhere."""
+    if not told:
+        return set()
+    fine = np.isfinite(np.array([value for _, value in told.values()])).all(axis=1)
+    return {one for one, good in zip(told, fine.tolist(), strict=True) if not good}
+
+
+def _unions(context: Context) -> set[int]:
+    return set(profile_of(context).elements("union").tolist())
+
+
+def _chain(context: Context, shape: int) -> list[int]:
     """A shape of the profile and the unions around it, outwards."""
-    context = profile.context
-    unions = context.columns.codes_of(p("union"))
-    found = [shape]
-    while (above := int(context.parent[found[-1]])) >= 0 and (
-        context.columns.index.codes[above] in unions
-    ):
+    unions, found = context.shared(_unions), [shape]
+    while (above := int(context.parent[found[-1]])) in unions:
         found.append(above)
     return found
 
@@ -259,7 +266,7 @@ def _is_placed(profile: Profile, shape: int) -> bool:
     """Whether the profile says of a shape, or of unions around it, where they stand."""
     return any(
         profile.child(one, name) >= 0
-        for one in _chain(profile, shape)
+        for one in _chain(profile.context, shape)
         for name in ("position", "orientation")
     )
 
@@ -273,12 +280,12 @@ def _poses_in(
     if moved:
         made.positions[moved] = [places[elements[row]][1] for row in moved]
         made.moved[moved] = True
-    turned = [row for row, element in enumerate(elements)
-              if element in turns and turns[element][1].any()]  # fmt: skip
+    turned = [row for row, element in enumerate(elements) if element in turns]
     if turned:
         given = np.array([turns[elements[row]][1] for row in turned])
-        made.orientations[turned] = unit_quaternions(given)
-        made.turned[turned] = True
+        some = given.any(axis=1)  # what is all zero is no turn
+        rows = np.array(turned)[some]
+        made.orientations[rows], made.turned[rows] = unit_quaternions(given[some]), True
     return made
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.links.names import p
-from colladaphy.links.poses import DEGREE, Poses, quaternion_product
+from colladaphy.links.poses import DEGREE, Poses, quaternion_product, reach
 from colladaphy.meaning import profile_rules
 from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.constraint_table import limits_of
@@ -80,43 +80,47 @@ def masses(context: Context) -> Iterator[Hit]:
             continue
         stated, other = bodies.masses[row : row + 1], int(bodies.mass_elements[row])
         if other < 0:
-            stated, other = np.array([_mass_of_shapes(context, row)]), holder
+            stated, other = context.shared(_masses_of_shapes)[row : row + 1], holder
         if value[0] < 0.0 or not stated[0] >= 0.0 or is_told(stated, value):
             continue
         if not same(stated, value):
             yield old("mass", element, stated, value, other)
 
 
-def _mass_of_shapes(context: Context, body: int) -> float:
-    """The mass of a body that states none, by its shapes; NaN where one does not say it."""
-    shapes = shapes_of(context)
+def _masses_of_shapes(context: Context) -> Array:
+    """The masses of bodies (n,) by their shapes; NaN where one is silent, or there is none."""
+    shapes, count = shapes_of(context), len(bodies_of(context).elements)
     masses, _ = context.vectors(shapes.rows, "mass", 1)
-    return float(masses[shapes.holders == body, 0].sum()) if body in shapes.holders else np.nan
+    held = shapes.holders >= 0
+    sums = np.bincount(shapes.holders[held], masses[held, 0], minlength=count)
+    sums[np.bincount(shapes.holders[held], minlength=count) == 0] = np.nan
+    return sums
 
 
 def inertias(context: Context) -> Iterator[Hit]:
     """Principal moments of inertia of bodies, whichever axes they are about."""
     profile, bodies = profile_of(context), bodies_of(context)
     kept, _, values = profile.values("inertia", 9, "body")
-    for element, holder, value in zip(
-        kept.tolist(), profile.holders(kept).tolist(), values, strict=True
-    ):
-        row = bodies.row(holder)
-        if row < 0 or bodies.inertia_elements[row] < 0:
-            continue
-        stated = np.sort(bodies.inertias[row])
-        if is_told(stated, value) or not (stated > 0.0).all():
-            continue
-        size = float(np.abs(value).max())
-        if not size > 0.0:
-            continue
-        tensor = value.reshape(3, 3) / size  # so that the largest do not overflow
-        moments, stated = np.linalg.eigvalsh((tensor + tensor.T) / 2.0), stated / size
-        if not (moments > 0.0).all() or moments[0] + moments[1] < moments[2] * (1.0 - 1e-3):
-            continue  # told elsewhere
-        if float(np.abs(moments - stated).max()) > 10.0 * DIGITS * float(moments[2]):
-            yield old("inertia", element, stated * size, moments * size,
-                      int(bodies.inertia_elements[row]))  # fmt: skip
+    if not len(kept) or not len(bodies.elements):
+        return
+    holders = profile.holders(kept)
+    rows = np.minimum(np.searchsorted(bodies.elements, holders), len(bodies.elements) - 1)
+    stated, sizes = np.sort(bodies.inertias[rows], axis=1), reach(values)
+    good = (bodies.elements[rows] == holders) & (bodies.inertia_elements[rows] >= 0)
+    good &= np.isfinite(stated).all(axis=1) & (stated > 0.0).all(axis=1)
+    good &= np.isfinite(sizes) & (sizes > 0.0)
+    mine = np.flatnonzero(good)
+    # So that the largest do not overflow.
+    tensors = (values[mine] / sizes[mine, None]).reshape(-1, 3, 3)
+    moments = np.linalg.eigvalsh((tensors + tensors.transpose(0, 2, 1)) / 2.0)
+    stated = stated[mine] / sizes[mine, None]
+    told = ~(moments > 0.0).all(axis=1)  # elsewhere
+    told |= moments[:, 0] + moments[:, 1] < moments[:, 2] * (1.0 - 1e-3)
+    apart = reach(moments - stated) > 10.0 * DIGITS * moments[:, 2]
+    for place in np.flatnonzero(apart & ~told).tolist():
+        at = mine[place]
+        yield old("inertia", int(kept[at]), stated[place] * sizes[at], moments[place] * sizes[at],
+                  int(bodies.inertia_elements[rows[at]]))  # fmt: skip
 
 
 def fixed(context: Context) -> Iterator[Hit]:
