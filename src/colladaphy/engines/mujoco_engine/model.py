@@ -70,7 +70,7 @@ def build(world: World, chosen: Chosen) -> Model:
     spec = _specification()
     _set_options(spec, world, chosen)
     forest = plan(world)
-    quick = is_quick(forest) and len(forest.order) > _FEW
+    quick = len(forest.order) > _FEW and is_quick(forest)
     joints = {joint.sid: joint for joint in world.joints}
     used = used_materials(world)[0].tolist()
     surfaces = Surfaces.of(world, used, chosen.friction, twice=chosen.solver == "newton")
