@@ -15,7 +15,7 @@ from colladaphy.meaning.models import parts_of
 from colladaphy_schema.core_columns import RotateTypeRows, TranslateTypeRows
 from colladaphy_schema.rows import Child, Rows
 
-__all__ = ["AttachmentRows", "Constraints", "constraints_of", "limits_of"]
+__all__ = ["AttachmentRows", "Constraints", "constraints_of", "frames_of", "limits_of"]
 
 Array = NDArray[Any]
 _SIDES = ("ref_attachment", "attachment")
@@ -53,7 +53,7 @@ class Constraints:
             ends = context.children(rows, name, AttachmentRows)
             assert ends.ordinals is not None
             self.attachments[ends.owner, side] = ends.ordinals
-            self.frames[side].put(ends.owner, poses_of_steps(Steps.of(ends)))
+            self.frames[side].put(ends.owner, frames_of(context, ends))
             for row, text in zip(ends.owner.tolist(), context.texts(ends, "rigid_body"),
                                  strict=True):  # fmt: skip
                 self.references[row][side] = (text or "").strip()
@@ -62,6 +62,14 @@ class Constraints:
                 found = meant[1] if meant is not None and meant[0] is home else None
                 if found is not None:
                     self.bodies[row, side] = bodies.row(found)
+
+
+def frames_of(context: Context, rows: AttachmentRows) -> Poses:
+    """Where what has translates and rotates stands in what is around it, a row each."""
+    for name, steps, width in (("translate", rows.translate, 3), ("rotate", rows.rotate, 4)):
+        assert steps.ordinals is not None
+        steps.value = context.table(name, steps.ordinals, width)
+    return poses_of_steps(Steps.of(rows))
 
 
 def constraints_of(context: Context) -> Constraints:

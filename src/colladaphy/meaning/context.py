@@ -172,11 +172,27 @@ class Context:
         found = self.children(rows, name, FloatRows)
         if len(found):
             assert found.ordinals is not None
-            full = np.diff(found.value.offsets) == width
-            first = found.value.offsets[:-1][full]
-            values[found.owner[full]] = found.value.values[first[:, None] + np.arange(width)]
+            lists, at = self.numbers(name, found.ordinals)
+            first = lists.offsets[at]
+            full = lists.offsets[at + 1] - first == width
+            values[found.owner[full]] = lists.values[first[full][:, None] + np.arange(width)]
             elements[found.owner] = found.ordinals
         return values, elements
+
+    def numbers(self, name: str, ordinals: Array) -> tuple[Lists, Array]:
+        """Lists of numbers, and which of them (n,) are those in some elements of a name.
+
+        As several rules ask for the same, all that is not in techniques is read once.
+        """
+        every = self.rows(FloatRows, name)
+        assert every.ordinals is not None
+        return every.value, np.searchsorted(every.ordinals, ordinals)
+
+    def table(self, name: str, ordinals: Array, width: int) -> Array:
+        """The same as a table (n, width), where the schema wants as many."""
+        lists, at = self.numbers(name, ordinals)
+        found: Array = lists.values[lists.offsets[at][:, None] + np.arange(width)]
+        return found
 
     def flags(self, rows: Rows, name: str, default: bool) -> tuple[Array, Array]:
         """The truth value (n,) in a child of each row, and the child (n,), -1 for none.
@@ -275,15 +291,17 @@ class Context:
 
     def doubtful(self, rows: Rows, attribute: str, expected: tuple[str, ...]) -> list[Reference]:
         """The references of some rows but for those that lead to an expected element by ``#id``."""
-        texts = self.texts(rows, attribute)
+        numbers, texts = self.columns.factorized(rows, attribute)
         get = self.resource.ids.get
-        targets = [get(text[1:], -1) if text and text[0] == "#" else -1 for text in texts]
-        good = self.is_named(np.array(targets, np.int64), *expected)
+        targets = [get(text[1:], -1) if text[:1] == "#" else -1 for text in texts]
+        good = np.append(self.is_named(np.array(targets, np.int64), *expected), True)
         assert rows.ordinals is not None
+        bad = np.flatnonzero(~good[numbers])  # where there is no attribute, the number is -1
         return [
-            Reference(int(rows.ordinals[row]), str(texts[row]))
-            for row in np.flatnonzero(~good).tolist()
-            if texts[row] is not None
+            Reference(element, texts[number])
+            for element, number in zip(
+                rows.ordinals[bad].tolist(), numbers[bad].tolist(), strict=True
+            )
         ]
 
 

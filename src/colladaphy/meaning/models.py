@@ -15,10 +15,10 @@ from colladaphy.links.names import c
 from colladaphy.links.resource import Resource
 from colladaphy.links.rules import MISSING
 from colladaphy.meaning import link_rules
-from colladaphy.meaning.context import Context
+from colladaphy.meaning.context import Context, NamedRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.links import reference_hits
-from colladaphy_schema.rows import Column, Rows
+from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS", "Parts", "ends", "instanced_bodies", "instanced_constraints", "parts_of"]
 
@@ -127,20 +127,18 @@ class Parts:
         key = (id(home), kind)
         if key not in self._own:
             found: defaultdict[int, dict[str, int]] = defaultdict(dict)
-            for number, text in _attributes(home, kind, "sid"):
-                told = str(number) if kind.startswith("instance_") else text
-                if told is not None:
-                    found[home.columns.parent_of(number)].setdefault(told, number)
+            rows = home.columns.rows(Rows, c(kind))
+            assert rows.ordinals is not None
+            numbers = rows.ordinals.tolist()
+            parents = home.columns.index.parent[rows.ordinals].tolist()
+            texts: list[str | None] = list(map(str, numbers))
+            if not kind.startswith("instance_"):
+                texts = home.columns.column(rows, NamedRows.sid)
+            for number, parent, text in zip(numbers, parents, texts, strict=True):
+                if text is not None:
+                    found[parent].setdefault(text, number)
             self._own[key] = dict(found)
         return self._own[key]
-
-
-def _attributes(home: Resource, name: str, attribute: str) -> Iterator[tuple[int, str | None]]:
-    rows = home.columns.rows(Rows, c(name))
-    assert rows.ordinals is not None
-    column: Column[list[str | None]] = Column(attribute, "attribute", "token", optional=True)
-    column.name = attribute
-    yield from zip(rows.ordinals.tolist(), home.columns.column(rows, column), strict=True)
 
 
 class Instanced:

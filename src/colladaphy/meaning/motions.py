@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from colladaphy.meaning import physics_rules
 from colladaphy.meaning.body_table import bodies_of
-from colladaphy.meaning.context import Context, FloatRows
+from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy_schema.rows import Rows
 
@@ -53,9 +53,11 @@ def velocities(context: Context) -> Iterator[Hit]:
 
 
 def _is_empty(context: Context, rows: Rows, name: str) -> Array:
-    found = context.children(rows, name, FloatRows)
+    found = context.children(rows, name, Rows)
+    assert found.ordinals is not None
     empty = np.zeros(len(rows), np.bool_)
-    empty[found.owner] = np.diff(found.value.offsets) == 0
+    lists, at = context.numbers(name, found.ordinals)
+    empty[found.owner] = lists.offsets[at] == lists.offsets[at + 1]
     return empty
 
 

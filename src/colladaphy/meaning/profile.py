@@ -14,11 +14,11 @@ from numpy.typing import NDArray
 from colladaphy.findings import Finding, Severity
 from colladaphy.links.names import COLLADA, PE
 from colladaphy.meaning import profile_rules
-from colladaphy.meaning.context import Context, FloatRows, TextRows
+from colladaphy.meaning.context import Context, TextRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.links import reference_hits
 from colladaphy.meaning.profile_table import profile_of
-from colladaphy_schema.rows import Rows
+from colladaphy_schema.rows import Column, Masked, Rows
 
 __all__ = ["CHECKS"]
 
@@ -65,6 +65,13 @@ _NUMBERS = (
     "poisson_ratio", "young_modulus", "damping_normal", "damping_tangential", "dynamic_friction",
     "restitution", "static_friction",
 )  # fmt: skip
+
+
+class _SystemIds(Rows):
+    """Elements with system ids (thesis 6.1)."""
+
+    __slots__ = ()
+    sid: Column[Masked[Array]] = Column("sid", "attribute", "integer", optional=True)
 
 
 def places(context: Context) -> Iterator[Hit]:
@@ -121,7 +128,7 @@ def numbers(context: Context) -> Iterator[Hit]:
         elements = profile.elements(name)
         if not len(elements):
             continue
-        values = context.at(FloatRows, elements).value
+        values = profile.lists(name)
         bad = np.isnan(values.values) if name in _NUMBERS else ~np.isfinite(values.values)
         if bad.any():
             owner = np.searchsorted(values.offsets, np.flatnonzero(bad), side="right") - 1
@@ -145,7 +152,7 @@ def ranges(context: Context) -> Iterator[Hit]:
         elements = profile.elements(name)
         if not len(elements):
             continue
-        lists = context.at(FloatRows, elements).value
+        lists = profile.lists(name)
         low = lists.values < 0.0 if least == 0.0 else lists.values <= 0.0
         for row in np.unique(
             np.searchsorted(lists.offsets, np.flatnonzero(low), side="right") - 1
@@ -225,25 +232,23 @@ def ids(context: Context) -> Iterator[Hit]:
         elements = np.sort(np.concatenate([profile.elements(name) for name in names]))
         if not len(elements):
             continue
-        texts = context.texts(context.at(Rows, elements), "sid")
-        there = np.array([text is not None for text in texts], np.bool_)
-        models = context.ancestor(elements[there], "physics_model")
-        keys = list(
-            zip(models.tolist(), [int(text) for text in texts if text is not None], strict=True)
-        )
-        low = [element for element, key in zip(elements[there].tolist(), keys, strict=True)
-               if key[1] < 1]  # fmt: skip
-        for element in low:
+        sids = context.at(_SystemIds, elements).sid
+        elements, ids = elements[sids.present], sids.values[sids.present]
+        for element in elements[ids < 1].tolist():
             message = "A system id is a positive number; the next free one is taken."
             yield Hit(profile_rules.SYSTEM_ID, element, message, (), "sid")
-        if len(set(keys)) == len(keys):
-            continue
-        seen: dict[tuple[int, int], int] = {}
-        for element, key in zip(elements[there].tolist(), keys, strict=True):
-            first = seen.setdefault(key, element)
-            if first != element and key[0] >= 0:
-                message = f"The system id {key[1]} is that of another one in the model."
-                yield Hit(profile_rules.SYSTEM_ID, element, message, (first,), "sid")
+        models = context.ancestor(elements, "physics_model")
+        order = np.argsort(ids, kind="stable")
+        order = order[np.argsort(models[order], kind="stable")]
+        elements, ids, models = elements[order], ids[order], models[order]
+        again = np.flatnonzero((ids[1:] == ids[:-1]) & (models[1:] == models[:-1])) + 1
+        starts = np.ones(len(ids), np.bool_)
+        starts[again] = False
+        first = np.maximum.accumulate(np.where(starts, np.arange(len(ids)), 0))
+        for row in again[models[again] >= 0].tolist():
+            message = f"The system id {ids[row]} is that of another one in the model."
+            other = int(elements[first[row]])
+            yield Hit(profile_rules.SYSTEM_ID, int(elements[row]), message, (other,), "sid")
 
 
 def once(context: Context) -> Iterator[Hit]:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from colladaphy.links.names import p
 from colladaphy.meaning.context import Context, FloatRows
+from colladaphy_schema.rows import Lists
 
 __all__ = ["Profile", "profile_of"]
 
@@ -21,6 +22,7 @@ class Profile:
     def __init__(self, context: Context) -> None:
         self.context = context
         self._firsts: dict[str, dict[int, int]] = {}
+        self._lists: dict[str, Lists] = {}
 
     def elements(self, name: str) -> Array:
         """All elements of a name."""
@@ -43,10 +45,16 @@ class Profile:
         found = self.elements(name)
         above = self.context.parent[found]
         codes = [code for each in outer for code in self.context.columns.codes_of(p(each))]
-        mine = np.isin(self.context.columns.index.codes[above], codes)
-        found, above = found[mine], above[mine]
-        lists = self.context.at(FloatRows, found).value
-        return found, above, lists.values.reshape(len(found), width)
+        mine = np.flatnonzero(np.isin(self.context.columns.index.codes[above], codes))
+        first = self.lists(name).offsets[mine]
+        values = self.lists(name).values[first[:, None] + np.arange(width)]
+        return found[mine], above[mine], values
+
+    def lists(self, name: str) -> Lists:
+        """The numbers in all elements of a name."""
+        if name not in self._lists:
+            self._lists[name] = self.context.at(FloatRows, self.elements(name)).value
+        return self._lists[name]
 
     def holders(self, elements: Array) -> Array:
         """The COLLADA elements (n,) whose techniques elements stand in; -1 for none."""

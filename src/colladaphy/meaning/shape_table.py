@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.meaning.body_table import bodies_of
-from colladaphy.meaning.context import Context, FloatRows
+from colladaphy.meaning.context import Context
 from colladaphy.meaning.surface_table import surface_of
 from colladaphy_schema.rows import Rows
 
@@ -44,10 +44,9 @@ class Shapes:
         self._rods()
         self._geometries()
         self.shift = np.zeros(count)
-        moved = context.children(rows, "translate", FloatRows)
-        if len(moved):
-            lengths = np.linalg.norm(moved.value.values.reshape(-1, 3), axis=1)
-            np.add.at(self.shift, moved.owner, lengths)
+        moved = context.children(rows, "translate", Rows)
+        assert moved.ordinals is not None
+        np.add.at(self.shift, moved.owner, _lengths(context, moved.ordinals))
 
     def _sized(self, name: str) -> Rows:
         return self.context.children(self.rows, name, Rows)
@@ -162,11 +161,15 @@ class Shapes:
         elements = context.ordinals("translate")
         inside = elements[context.is_within(elements, "mass_frame")]
         if len(inside):
-            values = context.at(FloatRows, inside).value.values.reshape(-1, 3)
             around = context.ancestor(inside, "rigid_body", "instance_rigid_body")
             rows = np.searchsorted(bodies.elements, around)
-            np.add.at(made, rows, np.linalg.norm(values, axis=1))
+            np.add.at(made, rows, _lengths(context, inside))
         return made
+
+
+def _lengths(context: Context, translates: Array) -> Array:
+    """How far some translates move (n,)."""
+    return np.asarray(np.linalg.norm(context.table("translate", translates, 3), axis=1))
 
 
 def _measure(context: Context, geometry: int) -> tuple[float, float]:

@@ -160,12 +160,12 @@ def _unweighed(context: Context) -> Iterator[Hit]:
         if bool(np.all(bodies.masses[bodies.instances(row)] > 0.0)) and len(bodies.instances(row))
     ]:
         del partly[row]  # the instances say the whole mass
-    for row in np.flatnonzero(~bodies.is_instance & bodies.moves & ~plane).tolist():
-        if profiled[row]:
-            continue
+    doubtful = ~heavy | hollow
+    doubtful[list(partly)] = True
+    doubtful &= ~bodies.is_instance & bodies.moves & ~plane & ~profiled
+    for row in np.flatnonzero(doubtful).tolist():
         if heavy[row] and not hollow[row]:
-            if row in partly:
-                yield _light(context, row, partly[row])
+            yield _light(context, row, partly[row])
             continue
         moving = bodies.instances(row)
         moving = moving[bodies.moves[moving]]
@@ -185,12 +185,10 @@ def _partly(context: Context) -> dict[int, int]:
     stated = (shapes.mass_elements >= 0) | (shapes.density_elements >= 0)
     weighed = np.zeros(len(bodies.elements), np.bool_)
     weighed[shapes.holders[stated]] = True
-    found: dict[int, int] = {}
-    for row in np.flatnonzero(~stated).tolist():
-        holder = int(shapes.holders[row])
-        if weighed[holder] and bodies.mass_elements[holder] < 0:
-            found.setdefault(holder, row)
-    return found
+    silent = ~stated & (weighed & (bodies.mass_elements < 0))[shapes.holders]
+    holders, first = np.unique(shapes.holders[silent], return_index=True)
+    rows = np.flatnonzero(silent)[first]
+    return dict(zip(holders.tolist(), rows.tolist(), strict=True))
 
 
 def _light(context: Context, row: int, shape: int) -> Hit:
@@ -213,8 +211,9 @@ def _profiled(context: Context) -> Array:
     if len(materials):
         users = context.rows(Rows, "instance_physics_material")
         assert users.ordinals is not None
-        texts = context.texts(users, "url")
-        mine = users.ordinals[np.isin(context.targets(texts), materials)]
+        numbers, texts = context.columns.factorized(users, "url")
+        ours = np.append(np.isin(context.targets(texts), materials), False)
+        mine = users.ordinals[ours[numbers]]
         inline = materials[context.is_within(materials, "shape", "technique_common")]
         holders = context.ancestor(
             np.concatenate([mine, inline]), "rigid_body", "instance_rigid_body"

@@ -9,15 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.links.poses import DEGREE, Poses, unit_quaternions
-from colladaphy.links.steps import Steps, poses_of_steps
 from colladaphy.meaning.body_table import bodies_of
-from colladaphy.meaning.constraint_table import AttachmentRows
+from colladaphy.meaning.comparing import DIGITS, TURN, matched, old
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.node_table import nodes_of, unclear_nodes
+from colladaphy.meaning.profile_shapes import shape_poses, turn_rods
 from colladaphy.meaning.profile_table import Profile, profile_of
 from colladaphy.meaning.shape_table import shapes_of
-from colladaphy.meaning.staleness import DIGITS, TURN, old, rods
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
@@ -55,7 +54,7 @@ def motions(context: Context) -> Iterator[Hit]:
     poses, _ = context.placement.poses(table.rows_of(0, targets))
     inner, single, plane, clear = _inner_poses(context, holders)
     whole = poses.then(inner)
-    mine, at = _matched(elements, turned)
+    mine, at = matched(elements, turned)
     mine, at = (each[np.isfinite(orientations[mine]).all(axis=1)] for each in (mine, at))
     units = unit_quaternions(orientations[mine])
     stated = whole.orientations[at]
@@ -66,7 +65,7 @@ def motions(context: Context) -> Iterator[Hit]:
     ).tolist():
         yield old("orientation", int(turns[mine[row]]), stated[row], orientations[mine[row]],
                    int(targets[at[row]]))  # fmt: skip
-    mine, at = _matched(elements, placed)
+    mine, at = matched(elements, placed)
     stated = whole.positions[at]
     columns = (positions[mine], stated, inner.positions[at])
     scale = np.max([np.abs(column).max(axis=1, initial=0.0) for column in columns], axis=0)
@@ -75,15 +74,6 @@ def motions(context: Context) -> Iterator[Hit]:
     for row in np.flatnonzero((apart > 10.0 * DIGITS * scale) & single[at] & ~told).tolist():
         yield old("position", int(places[mine[row]]), stated[row], positions[mine[row]],
                    int(targets[at[row]]))  # fmt: skip
-
-
-def _matched(elements: Array, wanted: Array) -> tuple[Array, Array]:
-    """Places in `wanted` whose element is one of `elements`, ascending, and its place there."""
-    if not len(elements):
-        return np.zeros(0, np.int64), np.zeros(0, np.int64)
-    at = np.minimum(np.searchsorted(elements, wanted), len(elements) - 1)
-    mine = np.flatnonzero(elements[at] == wanted)
-    return mine, at[mine]
 
 
 def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Array, Array]:
@@ -119,10 +109,7 @@ def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Arra
     meshes = np.array([row for row, _ in shapes.meshes()], np.int64)
     known[mine] = ~framed[mine] & ~np.isin(shape, meshes)
     mine, shape = mine[~framed[mine]], shape[~framed[mine]]
-    made.put(
-        mine, poses_of_steps(Steps.of(context.at(AttachmentRows, shapes.elements))).take(shape)
-    )
-    made.put(mine, rods(context)(shape, made.take(mine)))
+    made.put(mine, turn_rods(context, shape, shape_poses(context).take(shape)))
     return made, known, flat, clear
 
 
@@ -137,7 +124,7 @@ def _velocities(context: Context, profile: Profile) -> Iterator[Hit]:
         if not len(kept):
             continue
         stated, places = context.vectors(common, other, 3)
-        mine, at = _matched(instances.ordinals[common.owner], profile.holders(kept))
+        mine, at = matched(instances.ordinals[common.owner], profile.holders(kept))
         one, two = stated[at] * factor, values[mine]
         scale = np.maximum(np.abs(one), np.abs(two)).max(axis=1, initial=0.0)
         apart = np.abs(one - two).max(axis=1, initial=0.0) > DIGITS * scale

@@ -11,15 +11,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.links.poses import DEGREE, Poses, reach, rotate_vectors, unit_quaternions
-from colladaphy.links.steps import Steps, poses_of_steps
-from colladaphy.meaning.constraint_table import AttachmentRows, constraints_of
+from colladaphy.links.poses import DEGREE, reach, rotate_vectors, unit_quaternions
+from colladaphy.meaning import profile_rules
+from colladaphy.meaning.comparing import DIGITS, TURN, are_numbers, differing, matched, old, same
+from colladaphy.meaning.constraint_table import constraints_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.node_table import unclear_nodes
-from colladaphy.meaning.profile_table import Profile, profile_of
+from colladaphy.meaning.profile_shapes import Kept, Places, pairs_of, shape_poses, turn_rods
+from colladaphy.meaning.profile_table import profile_of
 from colladaphy.meaning.shape_table import shapes_of
-from colladaphy.meaning.staleness import DIGITS, TURN, is_told, old, paired, rods, same
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
@@ -29,118 +30,97 @@ Array = NDArray[Any]
 
 def planes(context: Context) -> Iterator[Hit]:
     """Normals, displacements and anchors of planes that stand where their shapes do."""
-    profile = profile_of(context)
-    elements = profile.elements("plane")
+    elements = profile_of(context).elements("plane")
     if not len(elements):
         return
-    shapes, pairs = shapes_of(context), paired(context, profile)
-    rows = context.children(shapes.rows, "plane", Rows)
+    rows = context.children(shapes_of(context).rows, "plane", Rows)
     equations, places = context.vectors(rows, "equation", 4)
-    at = dict(zip(shapes.elements[rows.owner].tolist(), range(len(rows)), strict=True))
-    poses = _shape_poses(context)
-    values = {name: _by_parent(profile, name, width, "plane")
-              for name, width in (("normal", 3), ("displacement", 1), ("anchor", 3))}  # fmt: skip
-    for plane, shape in zip(elements.tolist(), context.parent[elements].tolist(), strict=True):
-        row = at.get(pairs.get(shape, -1), -1)
-        if row < 0 or _is_placed(profile, shape):
-            continue
-        equation, length = equations[row], float(np.linalg.norm(equations[row, :3]))
-        kept = {name: found[plane] for name, found in values.items() if plane in found}
-        if is_told(equation, *(value for _, value in kept.values())) or not length > 0.0:
-            continue
-        pose = poses.take(np.array([rows.owner[row]]))
-        normal = rotate_vectors(pose.orientations, equation[None, :3] / length)[0]
-        away = float(normal @ pose.positions[0])
-        stated = np.array([away - equation[3] / length])
-        place = int(places[row])
-        if "normal" in kept:
-            element, value = kept["normal"]
-            size = float(np.linalg.norm(value))
-            if not size > 0.0:
-                continue
-            if float(np.abs(value / size - normal).max()) > 10.0 * DIGITS:
-                yield old("normal", element, normal, value, place)
-                continue
-        size = max(abs(away), abs(equation[3] / length))
-        for name in ("displacement", "anchor"):
-            if name not in kept:
-                continue
-            element, value = kept[name]
-            mine = value if name == "displacement" else np.array([normal @ value])
-            room = max(size, float(np.abs(value).max()))
-            if float(np.abs(mine - stated).max()) > 10.0 * DIGITS * room:
-                yield old("displacement", element, stated, mine, place)
-                break
+    around = context.parent[elements]
+    mine, at = pairs_of(context).matched(around, rows.owner)
+    _, _, placed, _ = context.shared(Places).whole(around[mine])
+    lengths = np.linalg.norm(equations[at, :3], axis=1)
+    good = are_numbers(equations[at]) & (lengths > 0.0) & ~placed
+    kept = {name: Kept(context, name, width, "plane")
+            for name, width in (("normal", 3), ("displacement", 1), ("anchor", 3))}  # fmt: skip
+    for each in kept.values():
+        found = each.rows(elements[mine])
+        there = np.flatnonzero(found >= 0)
+        good[there] &= are_numbers(each.values[found[there]])
+    mine, at, lengths = mine[good], at[good], lengths[good]
+    poses = shape_poses(context).take(rows.owner[at])
+    normals = rotate_vectors(poses.orientations, equations[at, :3] / lengths[:, None])
+    away, offsets = (normals * poses.positions).sum(axis=1), equations[at, 3] / lengths
+    stated, sizes = (away - offsets)[:, None], np.maximum(np.abs(away), np.abs(offsets))
+    told = np.zeros(len(mine), np.bool_)
+    found = kept["normal"].rows(elements[mine])
+    there = np.flatnonzero(found >= 0)
+    values = kept["normal"].values[found[there]]
+    sizes_there = np.linalg.norm(values, axis=1)
+    apart = reach(values / sizes_there[:, None] - normals[there]) > 10.0 * DIGITS
+    told[there] = apart | ~(sizes_there > 0.0)  # one of no length is told elsewhere
+    for row in np.flatnonzero(apart & (sizes_there > 0.0)).tolist():
+        place = there[row]
+        yield old("normal", int(kept["normal"].elements[found[place]]), normals[place],
+                  values[row], int(places[at[place]]))  # fmt: skip
+    for name in ("displacement", "anchor"):
+        found = kept[name].rows(elements[mine])
+        there = np.flatnonzero((found >= 0) & ~told)
+        values = kept[name].values[found[there]]
+        own = values if name == "displacement" else (normals[there] * values).sum(axis=1)[:, None]
+        room = np.maximum(sizes[there], reach(values))
+        apart = np.abs(own - stated[there])[:, 0] > 10.0 * DIGITS * room
+        told[there] = apart
+        for row in np.flatnonzero(apart).tolist():
+            place = there[row]
+            yield old("displacement", int(kept[name].elements[found[place]]), stated[place],
+                      own[row], int(places[at[place]]))  # fmt: skip
+
+
+def masses(context: Context) -> Iterator[Hit]:
+    """Masses of shapes."""
+    elements, around, values = profile_of(context).values("mass", 1, "shape")
+    if not len(elements):
+        return
+    stated, places = context.vectors(shapes_of(context).rows, "mass", 1)
+    mine, at = pairs_of(context).matched(around)
+    stated, values, places = stated[at], values[mine], places[at]
+    among = (places >= 0) & (np.minimum(stated, values)[:, 0] >= 0.0)
+    yield from differing("mass", elements[mine], stated, values, places, among)
 
 
 def members(context: Context) -> Iterator[Hit]:
-    """Masses of shapes, and where members of unions stand."""
-    profile = profile_of(context)
-    kept, around, values = profile.values("mass", 1, "shape")
-    if len(kept):
-        shapes, pairs = shapes_of(context), paired(context, profile)
-        stated, places = context.vectors(shapes.rows, "mass", 1)
-        at = {element: row for row, element in enumerate(shapes.elements.tolist())}
-        for element, shape, value in zip(kept.tolist(), around.tolist(), values, strict=True):
-            row = at.get(pairs.get(shape, -1), -1)
-            if row < 0 or places[row] < 0 or is_told(stated[row], value):
-                continue
-            if min(value[0], stated[row, 0]) >= 0.0 and not same(stated[row], value):
-                yield old("mass", element, stated[row], value, int(places[row]))
-    yield from _poses(context, profile)
-
-
-def _poses(context: Context, profile: Profile) -> Iterator[Hit]:
-    places = _by_parent(profile, "position", 3, "shape", "union")
-    turns = _by_parent(profile, "orientation", 4, "shape", "union")
-    if not places and not turns:
+    """Where shapes stand in their unions and bodies."""
+    places = context.shared(Places)
+    elements = profile_of(context).elements("shape")
+    elements = elements[places.are_told(elements)]
+    if not len(elements):
         return
-    shapes, pairs = shapes_of(context), paired(context, profile)
-    at = {element: row for row, element in enumerate(shapes.elements.tolist())}
-    odd = {row for row, _ in shapes.meshes()}
-    odd.update(context.children(shapes.rows, "plane", Rows).owner.tolist())
-    unclear = unclear_nodes(context)
-    stated, turned = _shape_poses(context), rods(context)
-    faulty = _faulty(places) | _faulty(turns)
-    chosen, rows, chains = [], [], []
-    for shape in profile.elements("shape").tolist():
-        row = at.get(pairs.get(shape, -1), -1)
-        if row < 0 or row in odd or pairs[shape] in unclear:
-            continue
-        chain = _chain(context, shape)
-        if (shape in places or shape in turns) and faulty.isdisjoint(chain):
-            chosen.append(shape)
-            rows.append(row)
-            chains.append(chain)
-    if not chosen:
-        return
-    kept, sizes = _composed(chains, places, turns)
-    mine = stated.take(np.array(rows))
-    apart = reach(kept.positions - mine.positions)
-    sizes = np.maximum(sizes, reach(mine.positions))
-    moved = np.array([shape in places for shape in chosen]) & (apart > 10.0 * DIGITS * sizes)
-    one, other = turned(np.array(rows), mine).orientations, kept.orientations
-    far = np.minimum(reach(one - other), reach(one + other)) > TURN
-    for place in np.flatnonzero(moved | far).tolist():
-        shape, element = chosen[place], int(shapes.elements[rows[place]])
-        if moved[place]:
-            yield old("position", places[shape][0], mine.positions[place], kept.positions[place],
-                      element)  # fmt: skip
-        elif shape in turns and turns[shape][1].any():
-            yield old("orientation", turns[shape][0], one[place], other[place], element)
-
-
-def _composed(
-    chains: list[list[int]], places: dict[int, tuple[int, Any]], turns: dict[int, tuple[int, Any]]
-) -> tuple[Poses, Any]:
-    """Where the innermost of chains stand, and the largest numbers (n,) that say so."""
-    made, sizes = Poses.none(len(chains)), np.zeros(len(chains))
-    for depth in range(max(map(len, chains)) - 1, -1, -1):
-        rows = np.flatnonzero([len(chain) > depth for chain in chains])
-        step = _poses_in([chains[row][depth] for row in rows.tolist()], places, turns)
-        made.put(rows, made.take(rows).then(step))
-        sizes[rows] = np.maximum(sizes[rows], reach(step.positions))
-    return made, sizes
+    shapes = shapes_of(context)
+    mine, rows = pairs_of(context).matched(elements)
+    odd = np.zeros(len(shapes.elements), np.bool_)
+    odd[[row for row, _ in shapes.meshes()]] = True
+    odd[context.children(shapes.rows, "plane", Rows).owner] = True
+    if unclear := unclear_nodes(context):
+        odd |= np.isin(shapes.elements, list(unclear))
+    mine, rows = mine[~odd[rows]], rows[~odd[rows]]
+    elements = elements[mine]
+    kept, sizes, _, good = places.whole(elements)
+    stated = shape_poses(context).take(rows)
+    apart = reach(kept.positions - stated.positions)
+    sizes = np.maximum(sizes, reach(stated.positions))
+    at = places.positions.rows(elements)
+    moved = good & (at >= 0) & (apart > 10.0 * DIGITS * sizes)
+    for row in np.flatnonzero(moved).tolist():
+        yield old("position", int(places.positions.elements[at[row]]), stated.positions[row],
+                  kept.positions[row], int(shapes.elements[rows[row]]))  # fmt: skip
+    at = places.orientations.rows(elements)
+    turned = good & ~moved & (at >= 0)
+    turned[turned] = places.orientations.values[at[turned]].any(axis=1)
+    one, other = turn_rods(context, rows, stated).orientations, kept.orientations
+    turned &= np.minimum(reach(one - other), reach(one + other)) > TURN
+    for row in np.flatnonzero(turned).tolist():
+        yield old("orientation", int(places.orientations.elements[at[row]]), one[row], other[row],
+                  int(shapes.elements[rows[row]]))  # fmt: skip
 
 
 def springs(context: Context) -> Iterator[Hit]:
@@ -148,27 +128,22 @@ def springs(context: Context) -> Iterator[Hit]:
     profile = profile_of(context)
     rows = context.rows(Rows, "rigid_constraint")
     assert rows.ordinals is not None
-    at = {element: row for row, element in enumerate(rows.ordinals.tolist())}
     common = context.children(rows, "technique_common", Rows)
     outer = context.children(common, "spring", Rows)
     for kind, angular in (("linear_spring", False), ("angular_spring", True)):
         elements = profile.elements(kind)
         if not len(elements):
             continue
-        found = context.children(outer, kind.partition("_")[0], Rows)
-        own = dict(
-            zip(common.owner[outer.owner[found.owner]].tolist(), range(len(found)), strict=True)
-        )
-        told: set[int] = set()
         what = kind.replace("_", " ")
-        for element, holder in zip(
-            elements.tolist(), profile.holders(elements).tolist(), strict=True
-        ):
-            if at.get(holder, -1) >= 0 and at[holder] not in own:
-                told.add(element)
-                message = f"The {what} of the pe profile is not in the common profile."
-                hit = old(what, element, np.zeros(0), np.zeros(0), holder)
-                yield Hit(hit.rule, element, message, (holder,))
+        found = context.children(outer, kind.partition("_")[0], Rows)
+        own = common.owner[outer.owner[found.owner]]
+        mine, at = matched(rows.ordinals, profile.holders(elements))
+        alone = ~np.isin(at, own)
+        for element, row in zip(elements[mine[alone]].tolist(), at[alone].tolist(), strict=True):
+            message = f"The {what} of the pe profile is not in the common profile."
+            holder = int(rows.ordinals[row])
+            yield Hit(profile_rules.OLD_VALUE, element, message, (holder,))
+        told = elements[mine[alone]]
         for name, default, factor in (
             ("stiffness", 1.0, 1.0 / DEGREE), ("damping", 0.0, 1.0 / DEGREE),
             ("target_value", 0.0, DEGREE),
@@ -177,19 +152,15 @@ def springs(context: Context) -> Iterator[Hit]:
             stated[places < 0] = default
             stated *= factor if angular else 1.0
             kept, around, values = profile.values(name, 1, kind)
-            holders = profile.holders(kept).tolist()
-            for element, group, value, holder in zip(
-                kept.tolist(), around.tolist(), values, holders, strict=True
-            ):
-                row = own.get(at.get(holder, -1), -1)
-                if row < 0 or group in told or is_told(stated[row], value):
-                    continue
-                if np.abs(value).max() > 1e300 or same(stated[row], value):
-                    continue
-                told.add(group)
-                other = int(places[row]) if places[row] >= 0 else holder
-                name_of = f"{name.replace('_', ' ')} of the {what}"
-                yield old(name_of, element, stated[row], value, other)
+            holders = profile.holders(kept)
+            mine, at = matched(rows.ordinals[own], holders)
+            others = np.where(places[at] >= 0, places[at], holders[mine])
+            among = ~np.isin(around[mine], told) & (np.abs(values[mine])[:, 0] <= 1e300)
+            name_of = f"{name.replace('_', ' ')} of the {what}"
+            hits = list(differing(name_of, kept[mine], stated[at], values[mine], others, among))
+            elements = np.array([hit.element for hit in hits], np.int64)
+            told = np.concatenate([told, context.parent[elements]])
+            yield from hits
 
 
 def frames(context: Context) -> Iterator[Hit]:
@@ -197,96 +168,39 @@ def frames(context: Context) -> Iterator[Hit]:
     profile = profile_of(context)
     if not len(profile.elements("joint")):
         return
-    table, unclear = constraints_of(context), unclear_nodes(context)
-    at = {element: row for row, element in enumerate(table.elements.tolist())}
-    shapes = shapes_of(context)
-    flat = set(shapes.holders[context.children(shapes.rows, "plane", Rows).owner].tolist())
+    table, shapes, unclear = constraints_of(context), shapes_of(context), unclear_nodes(context)
+    flat = shapes.holders[context.children(shapes.rows, "plane", Rows).owner]
     for side, name in enumerate(("frame1", "frame2")):
-        places = _by_parent(profile, "position", 3, name)
-        turns = _by_parent(profile, "orientation", 4, name)
         elements = profile.elements(name)
-        for frame, holder in zip(
-            elements.tolist(), profile.holders(elements).tolist(), strict=True
-        ):
-            row = at.get(holder, -1)
-            attachment = -1 if row < 0 else int(table.attachments[row, side])
-            told = [each[frame][1] for each in (places, turns) if frame in each]
-            if row >= 0 and int(table.bodies[row, side]) in flat:
-                continue  # of a plane, the frame is in the pose of its normal
-            if row < 0 or attachment < 0 or attachment in unclear or is_told(*told):
-                continue
-            stated = table.frames[side].take(np.array([row]))
-            if frame in places and not same(stated.positions[0], places[frame][1]):
-                yield old("position of the frame", places[frame][0], stated.positions[0],
-                          places[frame][1], attachment)  # fmt: skip
-            elif frame in turns and turns[frame][1].any():
-                one = stated.orientations[0]
-                other = unit_quaternions(turns[frame][1][None])[0]
-                if min(np.abs(one - other).max(), np.abs(one + other).max()) > TURN:
-                    yield old("orientation of the frame", turns[frame][0], one, turns[frame][1],
-                              attachment)  # fmt: skip
+        mine, rows = matched(table.elements, profile.holders(elements))
+        attachments = table.attachments[rows, side]
+        # Of a plane, the frame is in the pose of its normal.
+        good = (attachments >= 0) & ~np.isin(table.bodies[rows, side], flat)
+        good &= ~np.isin(attachments, list(unclear))
+        places = Kept(context, "position", 3, name)
+        turns = Kept(context, "orientation", 4, name)
+        for each in (places, turns):
+            at = each.rows(elements[mine])
+            there = np.flatnonzero(at >= 0)
+            good[there] &= are_numbers(each.values[at[there]])
+        own, attachments = elements[mine[good]], attachments[good]
+        stated = table.frames[side].take(rows[good])
+        at = places.rows(own)
+        some = np.flatnonzero(at >= 0)
+        moved = np.zeros(len(own), np.bool_)
+        moved[some] = ~same(stated.positions[some], places.values[at[some]])
+        for row in np.flatnonzero(moved).tolist():
+            yield old("position of the frame", int(places.elements[at[row]]),
+                      stated.positions[row], places.values[at[row]],
+                      int(attachments[row]))  # fmt: skip
+        at = turns.rows(own)
+        some = np.flatnonzero((at >= 0) & ~moved)
+        given, one = turns.values[at[some]], stated.orientations[some]
+        units = unit_quaternions(given)
+        apart = np.minimum(reach(units - one), reach(units + one)) > TURN
+        for row in np.flatnonzero(apart & given.any(axis=1)).tolist():
+            yield old("orientation of the frame", int(turns.elements[at[some[row]]]), one[row],
+                      given[row], int(attachments[some[row]]))  # fmt: skip
 
 
-def _shape_poses(context: Context) -> Poses:
-    """Where shapes stand in their bodies (n,)."""
-    shapes = shapes_of(context)
-    return poses_of_steps(Steps.of(context.at(AttachmentRows, shapes.elements)))
-
-
-def _by_parent(profile: Profile, name: str, width: int, *outer: str) -> dict[int, tuple[int, Any]]:
-    """Elements with the numbers in them, by what they stand in."""
-    kept, around, values = profile.values(name, width, *outer)
-    return {
-        parent: (element, value)
-        for parent, element, value in zip(around.tolist(), kept.tolist(), values, strict=True)
-    }
-
-
-def _faulty(told: dict[int, tuple[int, Any]]) -> set[int]:
-    """What holds numbers that are none, which is told elsewhere."""
-    if not told:
-        return set()
-    fine = np.isfinite(np.array([value for _, value in told.values()])).all(axis=1)
-    return {one for one, good in zip(told, fine.tolist(), strict=True) if not good}
-
-
-def _unions(context: Context) -> set[int]:
-    return set(profile_of(context).elements("union").tolist())
-
-
-def _chain(context: Context, shape: int) -> list[int]:
-    """A shape of the profile and the unions around it, outwards."""
-    unions, found = context.shared(_unions), [shape]
-    while (above := int(context.parent[found[-1]])) in unions:
-        found.append(above)
-    return found
-
-
-def _is_placed(profile: Profile, shape: int) -> bool:
-    """Whether the profile says of a shape, or of unions around it, where they stand."""
-    return any(
-        profile.child(one, name) >= 0
-        for one in _chain(profile.context, shape)
-        for name in ("position", "orientation")
-    )
-
-
-def _poses_in(
-    elements: list[int], places: dict[int, tuple[int, Any]], turns: dict[int, tuple[int, Any]]
-) -> Poses:
-    """Where elements stand in the next one around them (n,)."""
-    made = Poses.none(len(elements))
-    moved = [row for row, element in enumerate(elements) if element in places]
-    if moved:
-        made.positions[moved] = [places[elements[row]][1] for row in moved]
-        made.moved[moved] = True
-    turned = [row for row, element in enumerate(elements) if element in turns]
-    if turned:
-        given = np.array([turns[elements[row]][1] for row in turned])
-        some = given.any(axis=1)  # what is all zero is no turn
-        rows = np.array(turned)[some]
-        made.orientations[rows], made.turned[rows] = unit_quaternions(given[some]), True
-    return made
-
-
-CHECKS = (planes, members, springs, frames)
+CHECKS = (planes, masses, members, springs, frames)

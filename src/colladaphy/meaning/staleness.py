@@ -1,38 +1,34 @@
 """Values of the pe profile that the common profile has left behind (thesis 6.2.1).
 
 Software that does not know the profile keeps it and edits the common values. Loading takes the
-newer ones; here the difference is told. Values that agree to six digits are the same.
+newer ones; here the difference is told.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.links.names import p
-from colladaphy.links.poses import DEGREE, Poses, quaternion_product, reach
+from colladaphy.links.poses import DEGREE, reach
 from colladaphy.meaning import profile_rules
 from colladaphy.meaning.body_table import bodies_of
+from colladaphy.meaning.comparing import DIGITS, differing, matched, old, same
 from colladaphy.meaning.constraint_table import limits_of
 from colladaphy.meaning.context import Context, TextRows
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.profile_table import Profile, profile_of
+from colladaphy.meaning.profile_shapes import pairs_of
+from colladaphy.meaning.profile_table import profile_of
 from colladaphy.meaning.shape_table import shapes_of
 from colladaphy_schema.rows import Rows
 
-__all__ = ["CHECKS", "DIGITS", "TURN", "is_told", "old", "paired", "rods", "same"]
+__all__ = ["CHECKS"]
 
 Array = NDArray[Any]
 
-
-DIGITS = 6e-6
-TURN = 1e-4
-_ROD = np.array([[math.sqrt(0.5), 0.0, 0.0, math.sqrt(0.5)]])
-"""Turns the profile's axis x of capsules and cylinders onto COLLADA's y."""
 _KINDS = ("sphere", "box", "capsule", "cylinder", "plane")
 _SIZES = (
     ("sphere", "radius", "sphere", "radius", 1, 1.0),
@@ -42,49 +38,18 @@ _SIZES = (
 )
 
 
-def same(one: Array, other: Array) -> bool:
-    """Whether two values agree to six digits."""
-    if np.isnan(one).any() or np.isnan(other).any():
-        return True  # told elsewhere
-    # Of the largest numbers the common profile says only that they are large.
-    large = (np.minimum(np.abs(one), np.abs(other)) > 1e300) & (np.sign(one) == np.sign(other))
-    one, other = np.where(large, 0.0, one), np.where(large, 0.0, other)
-    scale = np.maximum(np.abs(one), np.abs(other)).max(initial=0.0)
-    if scale < 1e-300:
-        return True  # the tiniest doubles have few bits
-    close = (np.abs(one - other) <= DIGITS * scale) & np.isfinite(one) & np.isfinite(other)
-    return bool(np.all(close | (one == other)))
-
-
-def is_told(*values: Array) -> bool:
-    """Whether a value is no number that there can be, which is told elsewhere."""
-    return not all(bool(np.isfinite(each).all()) for each in values)
-
-
-def old(what: str, element: int, stated: Array, kept: Array, other: int) -> Hit:
-    """What to say of a value that was left behind."""
-    one, two = (" ".join(f"{value:g}" for value in values.tolist()) for values in (stated, kept))
-    message = f"The {what} is {one} in the common profile, {two} in the pe profile."
-    return Hit(profile_rules.OLD_VALUE, element, message, (other,))
-
-
 def masses(context: Context) -> Iterator[Hit]:
     """Masses of bodies."""
     profile, bodies = profile_of(context), bodies_of(context)
     kept, _, values = profile.values("mass", 1, "body")
-    for element, holder, value in zip(
-        kept.tolist(), profile.holders(kept).tolist(), values, strict=True
-    ):
-        row = bodies.row(holder)
-        if row < 0:
-            continue
-        stated, other = bodies.masses[row : row + 1], int(bodies.mass_elements[row])
-        if other < 0:
-            stated, other = context.shared(_masses_of_shapes)[row : row + 1], holder
-        if value[0] < 0.0 or not stated[0] >= 0.0 or is_told(stated, value):
-            continue
-        if not same(stated, value):
-            yield old("mass", element, stated, value, other)
+    holders = profile.holders(kept)
+    mine, rows = matched(bodies.elements, holders)
+    stated, others = bodies.masses[rows], bodies.mass_elements[rows]
+    if (others < 0).any():
+        stated = np.where(others < 0, context.shared(_masses_of_shapes)[rows], stated)
+        others = np.where(others < 0, holders[mine], others)
+    among = (values[mine, 0] >= 0.0) & (stated >= 0.0)
+    yield from differing("mass", kept[mine], stated[:, None], values[mine], others, among)
 
 
 def _masses_of_shapes(context: Context) -> Array:
@@ -129,65 +94,57 @@ def fixed(context: Context) -> Iterator[Hit]:
     kept = profile.elements("fixed")
     bodies_kept = context.columns.codes_of(p("body"))
     kept = kept[np.isin(context.columns.index.codes[context.parent[kept]], bodies_kept)]
-    words = context.at(TextRows, kept).value if len(kept) else []
-    for element, holder, word in zip(
-        kept.tolist(), profile.holders(kept).tolist(), words, strict=True
-    ):
-        row = bodies.row(holder)
-        if row < 0 or bodies.moves[row] != (word.strip() in ("true", "1")):
-            continue
+    mine, rows = matched(bodies.elements, profile.holders(kept))
+    if not len(mine):
+        return
+    kept = kept[mine]
+    words = [word.strip() for word in context.at(TextRows, kept).value]
+    wrong = np.isin(words, ("true", "1")) == bodies.moves[rows]
+    for element, row in zip(kept[wrong].tolist(), rows[wrong].tolist(), strict=True):
         message = "The body moves in the common profile, and is fixed in the pe profile."
         if not bodies.moves[row]:
             message = "The body is not dynamic in the common profile, and moves in the pe profile."
-        yield Hit(profile_rules.OLD_VALUE, element, message, (holder,))
+        yield Hit(profile_rules.OLD_VALUE, element, message, (int(bodies.elements[row]),))
 
 
 def kinds(context: Context) -> Iterator[Hit]:
     """Shapes that are others now."""
-    profile, pairs = profile_of(context), None
-    known: dict[int, str] = {}
-    for kind in _KINDS:
+    profile, shapes = profile_of(context), shapes_of(context)
+    now = np.full(len(shapes.elements), -1)
+    for index, name in enumerate(_KINDS):
+        now[context.children(shapes.rows, name, Rows).owner] = index
+    # A sphere may be written as a capsule without a length.
+    round_ = np.isin(now, (_KINDS.index("sphere"), _KINDS.index("capsule")))
+    for index, kind in enumerate(_KINDS):
         elements = profile.elements(kind)
         if not len(elements):
             continue
-        if pairs is None:
-            pairs, shapes = paired(context, profile), shapes_of(context)
-            for name in _KINDS:
-                found = context.children(shapes.rows, name, Rows)
-                known.update(dict.fromkeys(shapes.elements[found.owner].tolist(), name))
-        for element, shape in zip(
-            elements.tolist(), context.parent[elements].tolist(), strict=True
-        ):
-            now = known.get(pairs.get(shape, -1), kind)
-            # A sphere may be written as a capsule without a length.
-            if now != kind and {now, kind} != {"sphere", "capsule"}:
-                message = f"The shape is a {now} in the common profile, a {kind} in the pe profile."
-                yield Hit(profile_rules.OLD_VALUE, element, message, (pairs[shape],))
+        mine, rows = pairs_of(context).matched(context.parent[elements])
+        wrong = (now[rows] != index) & (now[rows] >= 0)
+        if kind in ("sphere", "capsule"):
+            wrong &= ~round_[rows]
+        for element, row in zip(elements[mine[wrong]].tolist(), rows[wrong].tolist(), strict=True):
+            message = (
+                f"The shape is a {_KINDS[now[row]]} in the common profile, "
+                f"a {kind} in the pe profile."
+            )
+            yield Hit(profile_rules.OLD_VALUE, element, message, (int(shapes.elements[row]),))
 
 
 def sizes(context: Context) -> Iterator[Hit]:
     """Sizes of shapes; the shapes of the profile stand for those of the body, in their order."""
     profile = profile_of(context)
-    pairs: dict[int, int] | None = None
     for kind, name, outer, size, width, factor in _SIZES:
         kept, around, values = profile.values(name, width, kind)
         if not len(kept):
             continue
-        if pairs is None:
-            pairs = paired(context, profile)
-        shapes = shapes_of(context)
-        rows = context.children(shapes.rows, outer, Rows)
+        rows = context.children(shapes_of(context).rows, outer, Rows)
         stated, elements = context.vectors(rows, size, width)
-        at = dict(zip(shapes.elements[rows.owner].tolist(), range(len(rows)), strict=True))
-        for place, shape in enumerate(context.parent[around].tolist()):
-            row = at.get(pairs.get(shape, -1), -1)
-            if row < 0 or not (values[place] > 0.0).all() or not (stated[row] > 0.0).all():
-                continue
-            if is_told(stated[row], values[place]):
-                continue
-            if not same(stated[row] * factor, values[place]):
-                yield old(f"{name} of the {kind}", int(kept[place]), stated[row] * factor,
-                           values[place], int(elements[row]))  # fmt: skip
+        mine, at = pairs_of(context).matched(context.parent[around], rows.owner)
+        stated, values = stated[at], values[mine]
+        among = np.logical_and((values > 0.0).all(axis=1), (stated > 0.0).all(axis=1))
+        yield from differing(f"{name} of the {kind}", kept[mine], stated * factor, values,
+                             elements[at], among)  # fmt: skip
 
 
 def radii(context: Context) -> Iterator[Hit]:
@@ -198,21 +155,15 @@ def radii(context: Context) -> Iterator[Hit]:
         kept, around, values = profile.values(name, 1 if name == "radius" else 3, kind)
         if not len(kept):
             continue
-        values = np.broadcast_to(values, (len(kept), 3))
-        shapes, pairs = shapes_of(context), paired(context, profile)
-        rows = context.children(shapes.rows, kind, Rows)
+        rows = context.children(shapes_of(context).rows, kind, Rows)
         stated, elements = context.vectors(rows, "radius", width)
-        at = dict(zip(shapes.elements[rows.owner].tolist(), range(len(rows)), strict=True))
-        for place, shape in enumerate(context.parent[around].tolist()):
-            row = at.get(pairs.get(shape, -1), -1)
-            mine = values[place, 3 - width :]
-            if row < 0 or is_told(stated[row], mine):
-                continue
-            if not (stated[row] > 0.0).all() or not (mine > 0.0).all():
-                continue
-            if not same(np.sort(stated[row]), np.sort(mine)):
-                yield old(f"radius of the {kind}", int(kept[place]), stated[row], mine,
-                           int(elements[row]))  # fmt: skip
+        mine, at = pairs_of(context).matched(context.parent[around], rows.owner)
+        values = np.broadcast_to(values, (len(kept), 3))[mine, 3 - width :]
+        stated = stated[at]
+        good = (stated > 0.0).all(axis=1) & (values > 0.0).all(axis=1)
+        good &= ~same(np.sort(stated, axis=1), np.sort(values, axis=1))
+        yield from differing(f"radius of the {kind}", kept[mine], stated, values, elements[at],
+                             good)  # fmt: skip
 
 
 def materials(context: Context) -> Iterator[Hit]:
@@ -221,7 +172,6 @@ def materials(context: Context) -> Iterator[Hit]:
     rows = context.rows(Rows, "physics_material")
     assert rows.ordinals is not None
     common = context.children(rows, "technique_common", Rows)
-    at = {int(rows.ordinals[owner]): row for row, owner in enumerate(common.owner.tolist())}
     for name, most in (("restitution", 1.0), ("static_friction", np.inf),
                        ("dynamic_friction", np.inf)):  # fmt: skip
         kept, _, values = profile.values(name, 1, "material")
@@ -230,100 +180,53 @@ def materials(context: Context) -> Iterator[Hit]:
         stated, places = context.vectors(common, name, 1)
         holders = profile.holders(kept)
         holders = np.where(context.is_named(holders, "extra"), context.parent[holders], holders)
-        for element, holder, value in zip(kept.tolist(), holders.tolist(), values, strict=True):
-            row = at.get(holder, -1)
-            if row < 0 or places[row] < 0 or is_told(stated[row], value):
-                continue
-            if 0.0 <= stated[row, 0] <= most and not same(stated[row], value):
-                yield old(name.replace("_", " "), element, stated[row], value, int(places[row]))
-
-
-def paired(context: Context, profile: Profile) -> dict[int, int]:
-    """The shapes of bodies by those of their profiles, where there are as many."""
-    own: dict[int, list[int]] = {}
-    elements = context.ordinals("shape")
-    for element, body in zip(
-        elements.tolist(), context.ancestor(elements, "rigid_body").tolist(), strict=True
-    ):
-        own.setdefault(body, []).append(element)
-    kept: dict[int, list[int]] = {}
-    inner = profile.elements("shape")
-    for element, body in zip(inner.tolist(), profile.holders(inner).tolist(), strict=True):
-        kept.setdefault(body, []).append(element)
-    return {
-        one: other
-        for body, mine in own.items()
-        if len(mine) == len(kept.get(body, ()))
-        for one, other in zip(kept[body], mine, strict=True)
-    }
-
-
-def rods(context: Context) -> Callable[[Array, Poses], Poses]:
-    """What turns the poses of some shapes to the profile's axes, where they are long."""
-    shapes = shapes_of(context)
-    long = np.zeros(len(shapes.elements), np.bool_)
-    for name in ("capsule", "cylinder"):
-        found = context.children(shapes.rows, name, Rows)
-        height, _ = context.scalars(found, "height")
-        long[found.owner] = height != 0.0
-
-    def turned(rows: Array, poses: Poses) -> Poses:
-        turning = np.flatnonzero(long[rows])
-        if len(turning):
-            pose = poses.take(turning)
-            turn = quaternion_product(pose.orientations, np.broadcast_to(_ROD, (len(turning), 4)))
-            poses.put(turning, Poses.of(len(turning), pose.positions, turn, moved=pose.moved))
-        return poses
-
-    return turned
+        mine, at = matched(rows.ordinals[common.owner], holders)
+        stated = stated[at]
+        among = (places[at] >= 0) & (stated[:, 0] >= 0.0) & (stated[:, 0] <= most)
+        yield from differing(name.replace("_", " "), kept[mine], stated, values[mine], places[at],
+                             among)  # fmt: skip
 
 
 def limits(context: Context) -> Iterator[Hit]:
     """Limits of joints."""
     profile = profile_of(context)
-    constraints = context.rows(Rows, "rigid_constraint")
-    assert constraints.ordinals is not None
-    at = {element: row for row, element in enumerate(constraints.ordinals.tolist())}
+    constraints = context.rows(Rows, "rigid_constraint").ordinals
+    assert constraints is not None
     for name, other, factor in (
         ("linear_limits", "linear", 1.0), ("angular_limits", "swing_cone_and_twist", DEGREE),
     ):  # fmt: skip
+        if not len(profile.elements(name)):
+            continue
         for part, stated in zip(("min", "max"), limits_of(context, other), strict=True):
             kept, _, values = profile.values(part, 3, name)
             others = profile.values("max" if part == "min" else "min", 3, name)[2]
-            beyond = values > others if part == "min" else values < others
-            wrong = np.asarray(beyond.any(axis=1))
-            for element, holder, value, told in zip(
-                kept.tolist(), profile.holders(kept).tolist(), values, wrong.tolist(), strict=True
-            ):
-                row = at.get(holder, -1)
-                if row >= 0 and not told and not same(stated[row] * factor, value):
-                    what = f"{part} of the {name.replace('_', ' ')}"
-                    yield old(what, element, stated[row] * factor, value, holder)
+            crossed = (values > others) if part == "min" else (values < others)
+            mine, at = matched(constraints, profile.holders(kept))
+            wrong = ~crossed[mine].any(axis=1) & ~same(stated[at] * factor, values[mine])
+            for place in np.flatnonzero(wrong).tolist():
+                what = f"{part} of the {name.replace('_', ' ')}"
+                row = at[place]
+                yield old(what, int(kept[mine[place]]), stated[row] * factor, values[mine[place]],
+                          int(constraints[row]))  # fmt: skip
 
 
 def worlds(context: Context) -> Iterator[Hit]:
     """Gravity and time step of scenes."""
     profile = profile_of(context)
-    elements = profile.elements("world")
-    if not len(elements):
+    if not len(profile.elements("world")):
         return
     rows = context.rows(Rows, "physics_scene")
-    common = context.children(rows, "technique_common", Rows)
     assert rows.ordinals is not None
-    at = {int(rows.ordinals[owner]): row for row, owner in enumerate(common.owner.tolist())}
+    common = context.children(rows, "technique_common", Rows)
     for name, width in (("gravity", 3), ("time_step", 1)):
         stated, places = context.vectors(common, name, width)
         kept, _, values = profile.values(name, width, "world")
-        for element, holder, value in zip(
-            kept.tolist(), profile.holders(kept).tolist(), values, strict=True
-        ):
-            row = at.get(holder, -1)
-            if row < 0 or places[row] < 0 or is_told(stated[row], value):
-                continue
-            if name == "time_step" and not min(stated[row, 0], value[0]) > 0.0:
-                continue
-            if not same(stated[row], value):
-                yield old(name.replace("_", " "), element, stated[row], value, int(places[row]))
+        mine, at = matched(rows.ordinals[common.owner], profile.holders(kept))
+        stated, values, places_at = stated[at], values[mine], places[at]
+        among = places_at >= 0
+        if name == "time_step":
+            among &= (stated > 0.0).all(axis=1) & (values > 0.0).all(axis=1)
+        yield from differing(name.replace("_", " "), kept[mine], stated, values, places_at, among)
 
 
 CHECKS = (masses, inertias, fixed, kinds, sizes, radii, materials, limits, worlds)
