@@ -42,6 +42,7 @@ SUBJECTS: Final[dict[str, tuple[str, ...]]] = {
     "surface_materials": ("physics_material",),
     "motions": ("instance_rigid_body",),
     "nodes": ("instance_rigid_body",),
+    "attachments": ("rigid_constraint",),
     "joints": ("rigid_constraint",),
     "frames": ("instance_rigid_constraint",),
     "worlds": ("physics_scene",),

@@ -10,15 +10,16 @@ from numpy.typing import NDArray
 from colladaphy.links.poses import Poses
 from colladaphy.links.steps import Steps, poses_of_steps
 from colladaphy.meaning.body_table import bodies_of
+from colladaphy.meaning.comparing import matched
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.models import parts_of
 from colladaphy_schema.core_columns import RotateTypeRows, TranslateTypeRows
 from colladaphy_schema.rows import Child, Rows
 
-__all__ = ["AttachmentRows", "Constraints", "constraints_of", "frames_of", "limits_of"]
+__all__ = ["SIDES", "AttachmentRows", "Constraints", "constraints_of", "frames_of", "limits_of"]
 
 Array = NDArray[Any]
-_SIDES = ("ref_attachment", "attachment")
+SIDES = ("ref_attachment", "attachment")
 
 
 class AttachmentRows(Rows):
@@ -43,25 +44,31 @@ class Constraints:
         count = len(rows)
         self.references = [["", ""] for _ in range(count)]
         """What the attachments refer to; empty for the world."""
+        self.are_world: Array = np.ones((count, 2), np.bool_)
+        """(n, 2) which refer to nothing."""
         self.attachments: Array = np.full((count, 2), -1, np.int64)
         self.bodies: Array = np.full((count, 2), -1, np.int64)
         """(n, 2) the rows of the bodies, -1 for the world and for what is not found."""
         self.frames = [Poses.none(count), Poses.none(count)]
         """Of both attachments, in their bodies."""
         parts, home, bodies = context.shared(parts_of), context.resource, bodies_of(context)
-        for side, name in enumerate(_SIDES):
+        models = context.parent[self.elements].tolist()
+        for side, name in enumerate(SIDES):
             ends = context.children(rows, name, AttachmentRows)
             assert ends.ordinals is not None
             self.attachments[ends.owner, side] = ends.ordinals
             self.frames[side].put(ends.owner, frames_of(context, ends))
+            held = []
             for row, text in zip(ends.owner.tolist(), context.texts(ends, "rigid_body"),
                                  strict=True):  # fmt: skip
-                self.references[row][side] = (text or "").strip()
-                model = int(context.parent[self.elements[row]])
-                meant = parts.attached(home, model, (text or "").strip()) if text else None
-                found = meant[1] if meant is not None and meant[0] is home else None
-                if found is not None:
-                    self.bodies[row, side] = bodies.row(found)
+                self.references[row][side] = text = (text or "").strip()
+                meant = parts.attached(home, models[row], text) if text else None
+                held.append(meant[1] if meant is not None and meant[0] is home else -1)
+            mine, rows_of = matched(bodies.elements, np.array(held, np.int64))
+            self.bodies[ends.owner[mine], side] = rows_of
+            self.are_world[ends.owner, side] = [
+                not self.references[row][side] for row in ends.owner.tolist()
+            ]
 
 
 def frames_of(context: Context, rows: AttachmentRows) -> Poses:

@@ -20,7 +20,7 @@ from colladaphy.links.resource import Resource
 from colladaphy.meaning.hits import Hit
 from colladaphy_schema.rows import Child, Column, Lists, Rows
 
-__all__ = ["Context", "FloatRows", "IntegerRows", "NamedRows", "TextRows"]
+__all__ = ["Context", "FloatRows", "IntegerRows", "NamedRows", "TextRows", "texts_of"]
 
 Array = NDArray[Any]
 R = TypeVar("R", bound=Rows)
@@ -258,10 +258,7 @@ class Context:
 
     def texts(self, rows: Rows, attribute: str) -> list[str | None]:
         """An attribute of some rows."""
-        column: Column[Any] = Column(attribute, "attribute", "token", optional=True)
-        column.name = attribute
-        found: list[str | None] = self.columns.column(rows, column)
-        return found
+        return texts_of(self.columns, rows, attribute)
 
     def references(self, attribute: str, *names: str) -> list[Reference]:
         """All references of an attribute of elements of some names."""
@@ -303,6 +300,14 @@ class Context:
                 rows.ordinals[bad].tolist(), numbers[bad].tolist(), strict=True
             )
         ]
+
+
+def texts_of(columns: Document, rows: Rows, attribute: str) -> list[str | None]:
+    """An attribute of some rows of a document."""
+    column: Column[Any] = Column(attribute, "attribute", "token", optional=True)
+    column.name = attribute
+    found: list[str | None] = columns.column(rows, column)
+    return found
 
 
 Check = Callable[[Context], Iterable[Hit]]

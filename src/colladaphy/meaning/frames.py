@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
 
@@ -13,10 +11,11 @@ from numpy.typing import NDArray
 from colladaphy.links.poses import Poses, rotate_vectors
 from colladaphy.meaning import physics_rules
 from colladaphy.meaning.body_table import bodies_of
+from colladaphy.meaning.comparing import matched
 from colladaphy.meaning.constraint_table import Constraints, constraints_of, limits_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.models import parts_of
+from colladaphy.meaning.models import instanced_constraints
 from colladaphy.meaning.node_table import nodes_of, unclear_nodes
 from colladaphy.meaning.nodes import doubtful
 from colladaphy_schema.rows import Rows
@@ -42,37 +41,41 @@ class _Placed:
         held = np.isin(mine, constraints_of(context).bodies) & (mine >= 0)
         instances, mine = instances[held], mine[held]
         odd = unclear_nodes(context)
-        targets = [nodes.targets.get(element, -1) for element in instances.tolist()]
-        unknown = doubtful(context)
-        self.known = np.array(
-            [
-                target >= 0
-                and element not in unknown
-                and not (odd and odd & set(nodes.chain(target)))
-                for element, target in zip(instances.tolist(), targets, strict=True)
-            ],
-            np.bool_,
-        )
+        targets = np.array([nodes.targets[element] for element in instances.tolist()], np.int64)
+        self.known: Array = (targets >= 0) & ~np.isin(instances, list(doubtful(context)))
         """Of which instances it can be told where they stand."""
-        models = context.parent[instances].tolist()
+        if odd:
+            self.known[self.known] = [not odd & set(nodes.chain(target))
+                                      for target in targets[self.known].tolist()]  # fmt: skip
+        models = context.parent[instances].astype(np.int64)
         parents = {r.element: context.target(r.text) if r.text.strip() else -2
                    for r in context.references("parent", "instance_physics_model")}  # fmt: skip
-        around = [parents.get(model, -2) for model in models]
-        self.parents = parents
         self.context = context
-        poses = self.of_nodes(np.array(targets, np.int64))
-        outer = self.of_nodes(np.array(around, np.int64))
-        free = [
-            parent >= 0 and (target < 0 or parent not in nodes.chain(target))
-            for parent, target in zip(around, targets, strict=True)
-        ]
-        rows = np.flatnonzero(free)
-        poses.put(rows, outer.take(rows).then(poses.take(rows)))
+        poses = self.of_nodes(targets)
+        if parents:
+            around = np.array([parents.get(model, -2) for model in models.tolist()], np.int64)
+            rows = np.array([
+                row for row in np.flatnonzero(around >= 0).tolist()
+                if targets[row] < 0 or around[row] not in nodes.chain(int(targets[row]))
+            ], np.int64)  # fmt: skip
+            poses.put(rows, self.of_nodes(around[rows]).then(poses.take(rows)))
         self.poses = poses
-        self.by_model: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
-        """Instances by the instance of the model, and the row of the body."""
-        for row, key in enumerate(zip(models, mine.tolist(), strict=True)):
-            self.by_model[key].append(row)
+        keys = models * len(bodies.elements) + mine
+        self._order = np.argsort(keys, kind="stable")
+        self._keys = keys[self._order]
+
+    def of_bodies(self, models: Array, bodies: Array) -> Array:
+        """The instances (n,) of bodies in instances of models; -1 where not exactly one is known.
+
+        Bodies are those of the table.
+        """
+        wanted = models * len(bodies_of(self.context).elements) + bodies
+        first, last = (np.searchsorted(self._keys, wanted, side=side) for side in ("left", "right"))
+        made = np.full(len(wanted), -1, np.int64)
+        one = np.flatnonzero((last - first == 1) & (bodies >= 0))
+        found = self._order[first[one]]
+        made[one] = np.where(self.known[found], found, -1)
+        return made
 
     def of_nodes(self, elements: Array) -> Poses:
         """World poses of nodes; those that are not there, or in a circle, are not moved."""
@@ -96,19 +99,17 @@ def _freed(low: Array, high: Array) -> tuple[Array, Array]:
 
 def frames(context: Context) -> Iterator[Hit]:
     """Joints whose frames are apart, or turned too far."""
-    references = context.references("constraint", "instance_rigid_constraint")
-    if not references:
+    if not len(context.ordinals("instance_rigid_constraint")):
         return
     table = constraints_of(context)
-    pairs = list(_pairs(context, table, [(r.element, r.text) for r in references]))
-    if not pairs:
+    rows, instances = _pairs(context, table)
+    if not len(rows):
         return
     placed = context.shared(_Placed)
-    rows = np.array([row for row, _, _ in pairs])
     sides = []
     for side in (0, 1):
-        mine = np.array([pair[1 + side] for pair in pairs])
-        outer = Poses.none(len(pairs))
+        mine = instances[:, side]
+        outer = Poses.none(len(rows))
         there = np.flatnonzero(mine >= 0)
         outer.put(there, placed.poses.take(mine[there]))
         sides.append((outer, outer.then(table.frames[side].take(rows))))
@@ -152,63 +153,53 @@ def _turned(orientations: Array, low: Array, high: Array) -> Iterator[tuple[int,
     """Rows that are turned further than their limits allow in any order of angles, and how far."""
     bound = np.maximum(np.abs(low), np.abs(high))
     free = ~(bound < 180.0)
-    count = free.sum(axis=1)
-    opened = (bound > 0.0).sum(axis=1)
     whole = np.degrees(2.0 * np.arccos(np.minimum(np.abs(orientations[:, 0]), 1.0)))
-    for place in np.flatnonzero(count <= 1).tolist():
-        if count[place] == 0 and opened[place] != 1:
-            excess = whole[place] - float(bound[place].sum())
-        else:
-            # How far the only axis that turns, or that is free, swings away from itself.
-            axis = int(np.argmax(bound[place]))
-            unit = np.eye(3)[axis][None]
-            turned = rotate_vectors(orientations[place : place + 1], unit)[0]
-            swing = math.degrees(math.acos(min(max(float(turned[axis]), -1.0), 1.0)))
-            excess = swing - float(np.delete(bound[place], axis).sum())
-            if not free[place, axis]:
-                excess = max(excess, whole[place] - swing - float(bound[place, axis]))
-        if excess > _ANGLE:
-            yield place, excess
+    # How far the only axis that turns, or that is free, swings away from itself.
+    axis = bound.argmax(axis=1)
+    there = np.arange(len(axis))
+    own, others = bound[there, axis], bound.copy()
+    others[there, axis] = 0.0
+    turned = rotate_vectors(orientations, np.eye(3)[axis])[there, axis]
+    swing = np.degrees(np.arccos(np.clip(turned, -1.0, 1.0)))
+    excess = swing - others.sum(axis=1)
+    bounded = ~free[there, axis]
+    excess[bounded] = np.maximum(excess, whole - swing - own)[bounded]
+    several = ~free.any(axis=1) & ((bound > 0.0).sum(axis=1) != 1)
+    excess[several] = (whole - bound.sum(axis=1))[several]
+    for place in np.flatnonzero((free.sum(axis=1) <= 1) & (excess > _ANGLE)).tolist():
+        yield place, float(excess[place])
 
 
-def _pairs(
-    context: Context, table: Constraints, instances: list[tuple[int, str]]
-) -> Iterator[tuple[int, int, int]]:
-    """Constraints in effect with the instances of bodies at their ends, -1 for the world."""
-    parts, home = context.shared(parts_of), context.resource
-    placed = context.shared(_Placed)
-    at = {element: row for row, element in enumerate(table.elements.tolist())}
-    disabled, faulty = _disabled(context), unclear_nodes(context)
-    for element, name in instances:
-        instance = int(context.parent[element])
-        model = parts.model(home, instance)
-        if model is None or model[0] is not home:
-            continue
-        constraint = parts.named(*model, "rigid_constraint", name.rpartition("/")[2])
-        row = -1 if constraint is None else at.get(constraint, -1)
-        if row < 0 or row in disabled:
-            continue
-        ends = []
-        nested = context.name(int(context.parent[instance])) == "physics_model"
-        for side in (0, 1):
-            body = int(table.bodies[row, side])
-            if body < 0:
-                # The world is at rest, but a model in a model may stand anywhere.
-                ends.append(-1 if not table.references[row][side] and not nested else -2)
-                continue
-            found = placed.by_model.get((instance, body), [])
-            ends.append(found[0] if len(found) == 1 and placed.known[found[0]] else -2)
-        if table.attachments[row, 0] in faulty or table.attachments[row, 1] in faulty:
-            continue  # where its frames are cannot be told
-        if -2 not in ends and ends != [-1, -1] and ends[0] != ends[1]:
-            yield row, ends[0], ends[1]
+def _pairs(context: Context, table: Constraints) -> tuple[Array, Array]:
+    """Constraints in effect (n,), and the instances of bodies (n, 2) at their ends.
+
+    -1 is the world; those with ends of which nothing is known are left out.
+    """
+    placed, used = context.shared(_Placed), instanced_constraints(context)
+    mine, rows = matched(table.elements, used.parts)
+    faulty = np.isin(table.attachments[rows], list(unclear_nodes(context))).any(axis=1)
+    good = ~(faulty | _disabled(context)[rows])
+    mine, rows = mine[good], rows[good]
+    # The world is at rest, but a model in a model may stand anywhere.
+    nested = context.is_within(used.around[mine], "physics_model")
+    good = np.ones(len(rows), np.bool_)
+    ends = np.full((len(rows), 2), -1, np.int64)
+    for side in (0, 1):
+        bodies = table.bodies[rows, side]
+        ends[:, side] = placed.of_bodies(used.around[mine], bodies)
+        good &= (ends[:, side] >= 0) | ((bodies < 0) & table.are_world[rows, side] & ~nested)
+    good &= ends[:, 0] != ends[:, 1]
+    return rows[good], ends[good]
 
 
-def _disabled(context: Context) -> set[int]:
+def _disabled(context: Context) -> Array:
+    """Which constraints (n,) are out of effect."""
     rows = context.rows(Rows, "rigid_constraint")
     common = context.children(rows, "technique_common", Rows)
     enabled, _ = context.flags(common, "enabled", True)
-    return set(common.owner[~enabled].tolist())
+    made = np.zeros(len(rows), np.bool_)
+    made[common.owner] = ~enabled
+    return made
 
 
 CHECKS = (frames,)

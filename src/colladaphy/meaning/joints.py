@@ -17,23 +17,27 @@ from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy_schema.rows import Rows
 
-__all__ = ["CHECKS", "looks_like_radians"]
+__all__ = ["CHECKS", "look_like_radians"]
 
 Array = NDArray[Any]
 
 
 _FREE = (1.0, 0.0)
 """How Bullet and others write an axis without limits."""
-_ANGLES = tuple(
-    math.pi * part
-    for part in (2.0, 1.5, 1.0, 5 / 6, 0.75, 2 / 3, 0.5, 1 / 3, 0.25, 1 / 6, 0.125, 1 / 12)
+_ANGLES = math.pi * np.array(
+    [2.0, 1.5, 1.0, 5 / 6, 0.75, 2 / 3, 0.5, 1 / 3, 0.25, 1 / 6, 0.125, 1 / 12]
 )
 
 
-def looks_like_radians(values: Array) -> bool:
-    """Whether angles are known parts of a circle in radians, all that are not zero or infinite."""
-    told = [abs(float(value)) for value in values if value != 0.0 and math.isfinite(value)]
-    return bool(told) and all(any(abs(v - a) < 2e-4 * a for a in _ANGLES) for v in told)
+def look_like_radians(angles: Array) -> Array:
+    """Where angles (n, m) are known parts of a circle in radians (n,).
+
+    All of them but for those that are zero, or infinite; and there is one.
+    """
+    told = (angles != 0.0) & np.isfinite(angles)
+    sizes = np.abs(angles)[:, :, None]
+    known = (np.abs(sizes - _ANGLES) < 2e-4 * _ANGLES).any(axis=2)
+    return np.asarray(told.any(axis=1) & (known | ~told).all(axis=1))
 
 
 def limits(context: Context) -> Iterator[Hit]:
@@ -66,13 +70,11 @@ def limits(context: Context) -> Iterator[Hit]:
                 (other,),
             )
         if what == "angular":
-            for row in np.flatnonzero(there & ~wrong).tolist():
-                if looks_like_radians(
-                    np.concatenate([low[row], high[row]])[~np.tile(free[row], 2)]
-                ):
-                    shown = " ".join(f"{value:g}" for value in high[row].tolist())
-                    message = f"The angular limits are up to {shown} degrees."
-                    yield Hit(physics_rules.JOINT_RADIANS, int(low_elements[row]), message)
+            angles = np.where(np.tile(free, 2), 0.0, np.column_stack([low, high]))
+            for row in np.flatnonzero(there & ~wrong & look_like_radians(angles)).tolist():
+                shown = " ".join(f"{value:g}" for value in high[row].tolist())
+                message = f"The angular limits are up to {shown} degrees."
+                yield Hit(physics_rules.JOINT_RADIANS, int(low_elements[row]), message)
 
 
 def springs(context: Context) -> Iterator[Hit]:
@@ -110,9 +112,8 @@ def targets(context: Context) -> Iterator[Hit]:
         outside = (low <= high) & ((values[:, None] < low) | (values[:, None] > high))
         wrong = (elements >= 0) & np.isfinite(values) & free.any(axis=1)
         wrong &= (outside | ~free).all(axis=1)
+        wrong &= ~look_like_radians(np.column_stack([low, high]))
         for row in np.flatnonzero(wrong).tolist():
-            if looks_like_radians(np.append(low[row], high[row])):
-                continue
             shown = ", ".join(
                 f"{low[row, axis]:g} to {high[row, axis]:g}" for axis in np.flatnonzero(free[row])
             )
@@ -123,26 +124,20 @@ def targets(context: Context) -> Iterator[Hit]:
 def ends(context: Context) -> Iterator[Hit]:
     """Joints of bodies with themselves, or between such as cannot move."""
     table, bodies = constraints_of(context), bodies_of(context)
-    for row in range(len(table.elements)):
-        first, second = (end.strip() for end in table.references[row])
-        one, two = table.bodies[row].tolist()
-        element = int(table.elements[row])
-        if first and one >= 0 and one == two:
-            message = f"Both attachments are to {context.label(int(bodies.elements[one]))}."
-            yield Hit(physics_rules.JOINT_SELF, int(table.attachments[row, 1]), message,
-                      (int(table.attachments[row, 0]),), "rigid_body")  # fmt: skip
-        elif not first and not second:
-            yield Hit(physics_rules.JOINT_FIXED, element, "Both attachments are to the world.")
-        elif (
-            not (first and one < 0)
-            and not (second and two < 0)
-            and not any(end >= 0 and bodies.moves[end] for end in (one, two))
-        ):
-            yield Hit(
-                physics_rules.JOINT_FIXED,
-                element,
-                "Neither end of the joint is a body that moves.",
-            )
+    there = table.bodies >= 0
+    alone = there[:, 0] & (table.bodies[:, 0] == table.bodies[:, 1])
+    for row in np.flatnonzero(alone).tolist():
+        body = int(bodies.elements[table.bodies[row, 0]])
+        yield Hit(physics_rules.JOINT_SELF, int(table.attachments[row, 1]),
+                  f"Both attachments are to {context.label(body)}.",
+                  (int(table.attachments[row, 0]),), "rigid_body")  # fmt: skip
+    moving = np.append(bodies.moves, False)[table.bodies]
+    fixed = ~alone & (table.are_world | there).all(axis=1) & ~moving.any(axis=1)
+    for row in np.flatnonzero(fixed).tolist():
+        message = "Neither end of the joint is a body that moves."
+        if table.are_world[row].all():
+            message = "Both attachments are to the world."
+        yield Hit(physics_rules.JOINT_FIXED, int(table.elements[row]), message)
 
 
 CHECKS = (limits, springs, targets, ends)

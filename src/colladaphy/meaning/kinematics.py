@@ -10,7 +10,7 @@ from colladaphy.findings import Severity
 from colladaphy.meaning import kinematics_rules, physics_rules
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.joints import looks_like_radians
+from colladaphy.meaning.joints import look_like_radians
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
@@ -62,10 +62,10 @@ def limits(context: Context) -> Iterator[Hit]:
         if np.isnan(high[row]) and not np.isnan(low[row]):
             at, other = other, at
         yield Hit(kinematics_rules.LIMITS, at, message, (other,))
+    turns &= look_like_radians(np.column_stack([low, high]))
     for row in np.flatnonzero(turns & there & (low <= high)).tolist():
-        if looks_like_radians(np.array([low[row], high[row]])):
-            message = f"From {low[row]:g} to {high[row]:g} degrees is what radians look like."
-            yield Hit(physics_rules.JOINT_RADIANS, int(low_elements[row]), message)
+        message = f"From {low[row]:g} to {high[row]:g} degrees is what radians look like."
+        yield Hit(physics_rules.JOINT_RADIANS, int(low_elements[row]), message)
 
 
 CHECKS = (axes, limits)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
@@ -15,18 +16,19 @@ from colladaphy.links.names import c
 from colladaphy.links.resource import Resource
 from colladaphy.links.rules import MISSING
 from colladaphy.meaning import link_rules
-from colladaphy.meaning.context import Context, NamedRows
+from colladaphy.meaning.context import Context, texts_of
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.links import reference_hits
 from colladaphy_schema.rows import Rows
 
-__all__ = ["CHECKS", "Parts", "ends", "instanced_bodies", "instanced_constraints", "parts_of"]
+__all__ = ["CHECKS", "Parts", "instanced_bodies", "instanced_constraints", "parts_of"]
 
 
 _KINDS = {
     "instance_rigid_body": ("body", "rigid_body"),
     "instance_rigid_constraint": ("constraint", "rigid_constraint"),
 }
+_PLAIN = re.compile(r"[^/#%.]+")
+"""A sid that is written as it is, and no name of a file."""
 Array = NDArray[Any]
 
 
@@ -43,20 +45,23 @@ class Parts:
         self._own: dict[tuple[int, str], dict[int, dict[str, int]]] = {}
         self._all: dict[tuple[int, int, str], frozenset[str]] = {}
         self._models: dict[tuple[int, int], tuple[Resource, int] | None] = {}
-        self._texts: dict[tuple[int, int, str], str | None] = {}
+        self._texts: dict[tuple[int, str, str], dict[int, str | None]] = {}
 
-    def _text(self, home: Resource, element: int, name: str) -> str | None:
-        """An attribute of an element, which is asked for again and again."""
-        key = (id(home), element, name)
+    def text(self, home: Resource, kind: str, element: int, name: str) -> str | None:
+        """An attribute of an element of a kind; those of all are read at once."""
+        key = (id(home), kind, name)
         if key not in self._texts:
-            self._texts[key] = home.columns.attribute_of(element, name)
-        return self._texts[key]
+            rows = home.columns.rows(Rows, c(kind))
+            assert rows.ordinals is not None
+            texts = texts_of(home.columns, rows, name)
+            self._texts[key] = dict(zip(rows.ordinals.tolist(), texts, strict=True))
+        return self._texts[key].get(element)
 
     def model(self, resource: Resource, instance: int) -> tuple[Resource, int] | None:
         """The model that an instance_physics_model refers to; None where it cannot be found."""
         key = (id(resource), instance)
         if key not in self._models:
-            url = resource.columns.attribute_of(instance, "url") or ""
+            url = self.text(resource, "instance_physics_model", instance, "url") or ""
             known = resource.ids.get(url[1:]) if url[:1] == "#" else None
             found: tuple[Resource, int] | None = None
             if known is not None:
@@ -97,10 +102,14 @@ class Parts:
 
         It is named by its sid, after the id of the model or the sids of models within it.
         """
+        id = self.text(home, "physics_model", model, "id")
+        head, slash, sid = reference.partition("/")
+        if slash and head in (".", id) and _PLAIN.fullmatch(sid):  # as nearly all are written
+            body = self.named(home, model, "rigid_body", sid)
+            return None if body is None else (home, body)
         file, head, sids = split_reference(reference)
         if file:
             return None
-        id = self._text(home, model, "id")
         path = sids if head == "." or head == id else [head, *sids]
         where: tuple[Resource, int] | None = (home, model)
         for step in path[:-1]:
@@ -114,11 +123,11 @@ class Parts:
         """The model that is instanced in one by the sid of the instance, or by its own id."""
         instances = self.own(home, "instance_physics_model").get(model, {}).values()
         for instance in instances:
-            if self._text(home, instance, "sid") == name:
+            if self.text(home, "instance_physics_model", instance, "sid") == name:
                 return self.model(home, instance)
         for instance in instances:
             found = self.model(home, instance)
-            if found is not None and self._text(*found, "id") == name:
+            if found is not None and self.text(found[0], "physics_model", found[1], "id") == name:
                 return found
         return None
 
@@ -133,7 +142,7 @@ class Parts:
             parents = home.columns.index.parent[rows.ordinals].tolist()
             texts: list[str | None] = list(map(str, numbers))
             if not kind.startswith("instance_"):
-                texts = home.columns.column(rows, NamedRows.sid)
+                texts = texts_of(home.columns, rows, "sid")
             for number, parent, text in zip(numbers, parents, texts, strict=True):
                 if text is not None:
                     found[parent].setdefault(text, number)
@@ -153,25 +162,21 @@ class Instanced:
         self.around: Array = context.parent[rows.ordinals].astype(np.int64)
         """(n,) the instances of models that they stand in."""
         parts, home = context.shared(parts_of), context.resource
-        self.parts: Array = np.full(len(rows), -1, np.int64)
-        """(n,) the elements that they name, in this document; -1 for none."""
         self.lost: Array = np.zeros(len(rows), np.bool_)
         """(n,) which name nothing, though their model is there."""
-        cuts = np.flatnonzero(self.around[1:] != self.around[:-1]) + 1
-        for mine in np.split(np.arange(len(rows)), cuts) if len(rows) else ():
-            model = parts.model(home, int(self.around[mine[0]]))
-            if model is None:
-                continue  # reported at the instance
-            known = parts.own(model[0], kind).get(model[1], {})
-            sids = [self.texts[row].rpartition("/")[2] for row in mine.tolist()]
-            found = np.array([known.get(sid, -1) for sid in sids], np.int64)
-            lost = found < 0
-            if lost.any():
-                within = parts.within(*model, kind)
-                for place in np.flatnonzero(lost).tolist():
-                    self.lost[mine[place]] = sids[place] not in within
-            if model[0] is home:
-                self.parts[mine] = found
+        last, model, known, named = -1, None, {}, []
+        for row, (around, text) in enumerate(zip(self.around.tolist(), self.texts, strict=True)):
+            if around != last:
+                last, model = around, parts.model(home, around)
+                known = {} if model is None else parts.own(model[0], kind).get(model[1], {})
+            sid = text.rpartition("/")[2]
+            found = known.get(sid, -1)
+            named.append(found if model is not None and model[0] is home else -1)
+            # A model that is not there is reported at its instance.
+            if found < 0 and model is not None:
+                self.lost[row] = sid not in parts.within(*model, kind)
+        self.parts: Array = np.array(named, np.int64)
+        """(n,) the elements that they name, in this document; -1 for none."""
 
 
 def instanced_bodies(context: Context) -> Instanced:
@@ -212,6 +217,9 @@ def named_parts(context: Context) -> Iterator[Hit]:
 def constraints_once(context: Context) -> Iterator[Hit]:
     """Constraints that are instanced twice."""
     found = instanced_constraints(context)
+    keys = (found.around * len(context.parent) + found.parts)[found.parts >= 0]
+    if len(np.unique(keys)) == len(keys):
+        return
     seen: dict[tuple[int, int], int] = {}
     for element, around, part in zip(
         found.elements.tolist(), found.around.tolist(), found.parts.tolist(), strict=True
@@ -222,88 +230,4 @@ def constraints_once(context: Context) -> Iterator[Hit]:
             yield Hit(link_rules.CONSTRAINT_TWICE, element, message, (first, part), "constraint")
 
 
-def _broken(context: Context) -> set[int]:
-    """Instances of models with an instance of a body that is not there."""
-    found = instanced_bodies(context)
-    return set(found.around[found.lost].tolist())
-
-
-def attachments(context: Context) -> Iterator[Hit]:
-    """What the attachments of constraints refer to; the empty reference is the world."""
-    parts, home = context.shared(parts_of), context.resource
-    for name in ("ref_attachment", "attachment"):
-        for reference in context.references("rigid_body", name):
-            text = reference.text.strip()
-            if not text:
-                continue
-            model = int(context.parent[context.parent[reference.element]])
-            if parts.attached(home, model, text) is None:
-                yield from reference_hits(
-                    context, reference.element, "rigid_body", text, ("rigid_body", "node"),
-                    addressed=True,
-                )  # fmt: skip
-
-
-def ends(context: Context) -> Iterator[Hit]:
-    """Constraints in effect whose bodies are there twice, or not at all."""
-    parts = context.shared(parts_of)
-    home = context.resource
-    if not len(context.ordinals("instance_rigid_constraint")):
-        return
-    bodies: defaultdict[tuple[int, int], list[int]] = defaultdict(list)
-    there = instanced_bodies(context)
-    for around, part, element in zip(
-        there.around.tolist(), there.parts.tolist(), there.elements.tolist(), strict=True
-    ):
-        bodies[around, part].append(element)
-    attached = {
-        name: {int(context.parent[r.element]): r for r in context.references("rigid_body", name)}
-        for name in ("ref_attachment", "attachment")
-    }
-    nested = set(context.parent[context.ordinals("instance_physics_model")].tolist())
-    told: set[int] = set()
-    broken = context.shared(_broken)
-    for reference in context.references("constraint", "instance_rigid_constraint"):
-        instance = int(context.parent[reference.element])
-        model = parts.model(home, instance)
-        if model is None or model[0] is not home:
-            continue
-        constraint = parts.named(*model, "rigid_constraint", reference.text.rpartition("/")[2])
-        if constraint is None:
-            continue
-        for name, ends in attached.items():
-            end = ends.get(constraint)
-            text = "" if end is None else end.text.strip()
-            meant = parts.attached(*model, text) if text else None
-            if end is None or meant is None or meant[0] is not home:
-                continue
-            body = meant[1]
-            if context.parent[body] != model[1]:
-                continue  # in a model within the model
-            sid = home.columns.attribute_of(body, "sid") or ""
-            found = bodies.get((instance, body), [])
-            if len(found) > 1 and found[1] not in told:
-                told.add(found[1])
-                message = (
-                    f"The body {sid!r} is instanced {len(found)} times in one instance of its "
-                    f"model, so the constraint {reference.text!r} cannot tell which one is meant."
-                )
-                yield Hit(link_rules.BODY_TWICE, found[1], message, (found[0], end.element), "body")
-            elif (
-                not found
-                and model[1] not in nested
-                and instance not in broken
-                and reference.element not in told
-            ):
-                told.add(reference.element)
-                message = (
-                    f"The constraint {reference.text!r} attaches to the body {sid!r} ({name}), "
-                    "which this instance of the model does not instance."
-                )
-                related = (end.element, body)
-                yield Hit(
-                    link_rules.BODY_NOT_INSTANCED, reference.element, message, related, "constraint"
-                )
-
-
-CHECKS = (named_parts, constraints_once, attachments, ends)
+CHECKS = (named_parts, constraints_once)

@@ -13,10 +13,10 @@ from colladaphy.links.affine import skew_matrix, stretch_of
 from colladaphy.links.rules import NOT_RIGID, SEVERAL_PLACES
 from colladaphy.links.steps import matrix_of, own_transforms
 from colladaphy.meaning import link_rules, physics_rules
+from colladaphy.meaning.attachments import ends
 from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.models import ends
 from colladaphy.meaning.node_table import Nodes, nodes_of, odd_transforms
 from colladaphy_schema.scene_columns import NodeTypeRows
 
