@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.columns.index import Index
 from colladaphy.columns.names import NotPlain
 from colladaphy.columns.tags import Tags
@@ -53,7 +54,7 @@ def codes_by_name(index: Index, tags: Tags | None = None) -> dict[str, tuple[int
     texts = list(uris)
     for prefix, codes in names.items():
         here = by_prefix.get(prefix)
-        kinds = [] if here is None else np.unique(declared.kinds[here]).tolist()
+        kinds = [] if here is None else distinct(declared.kinds[here]).tolist()
         # An undeclared prefix is not well-formed, but without a default there is no namespace.
         everywhere = prefix or here is None or int(declared.rows[here[0]]) == 0
         if here is None or (len(kinds) < 2 and everywhere):

@@ -11,6 +11,7 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.columns.index import Index
 from colladaphy.columns.plain import Tree
 
@@ -101,7 +102,7 @@ class Places:
     def elements(self, ordinals: Iterable[int]) -> list[etree._Element]:
         """The elements of the tree of many numbers, in one pass over it."""
         numbers = np.asarray(ordinals, dtype=np.int64)
-        wanted = np.unique(numbers)
+        wanted = distinct(numbers)
         steps = np.diff(wanted, prepend=-1) - 1
         walk = self._root().iter("*")
         found = [next(islice(walk, step, None)) for step in steps.tolist()]

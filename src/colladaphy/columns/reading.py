@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import Any, TypeVar
 
 import numpy as np
@@ -113,7 +113,7 @@ class Document:
         index = self.index
         above = index.parent[rows]
         while len(above) and bool(np.any(above > 0)):
-            foreign |= np.isin(index.codes[above], codes)
+            foreign |= self.have_code(above, codes)
             above = np.maximum(index.parent[above], 0)
         return foreign
 
@@ -210,6 +210,13 @@ class Document:
     def codes_of(self, tag: str) -> tuple[int, ...]:
         """The codes of a qualified name in the index."""
         return self._codes.get(tag, ())
+
+    def have_code(self, elements: Array, codes: Collection[int]) -> Array:
+        """Which elements (n,) have one of some codes; none where there is no element (-1)."""
+        ours = np.zeros(len(self.index.names.texts), np.bool_)
+        ours[list(codes)] = True
+        found: Array = ours[self.index.codes[elements]] & (elements >= 0)
+        return found
 
     def is_profile(self, element: int) -> bool:
         """Whether an element is a technique of some profile."""

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.errors import ColladaError, DocumentError
 from colladaphy.findings import Severity
 from colladaphy.links import rules
@@ -234,11 +235,11 @@ class Placement:
     def _closure(self, rows: Array, above: Array) -> tuple[Array, dict[int, DocumentError]]:
         """The nodes and all those above them, and errors for those in a circle."""
         needed = np.zeros(len(above), np.bool_)
-        current = np.unique(rows)
+        current = distinct(rows)
         while len(current):
             current = current[~needed[current]]
             needed[current] = True
-            current = np.unique(above[current])
+            current = distinct(above[current])
             current = current[current >= 0]
         for row in self._several:
             if row < len(needed) and needed[row]:

@@ -212,10 +212,11 @@ def unit_quaternions(q: Floats) -> Floats:
     return np.asarray(made)
 
 
-def quaternions_of_turns(turns: Floats) -> tuple[Floats, Bools]:
+def quaternions_of_turns(turns: Floats, *, exact: bool = True) -> tuple[Floats, Bools]:
     """Quaternions (n, 4) of axes and degrees (n, 4), and which of them turn at all.
 
-    Axes need not have unit length; one of no length turns nothing.
+    Axes need not have unit length; one of no length turns nothing. If not `exact`, the last bits
+    may differ from machine to machine, and it takes less time.
     """
     with np.errstate(all="ignore"):
         x, y, z, degrees = turns.T
@@ -231,12 +232,16 @@ def quaternions_of_turns(turns: Floats) -> tuple[Floats, Bools]:
             x, y, z = axes.T
             length = np.sqrt(x * x + y * y + z * z)
         half = np.where(usable, np.fmod(degrees, 720.0) * DEGREE * 0.5, 0.0)
-        # One by one, as numpy's sines and cosines differ from machine to machine.
-        listed = half.tolist()
-        sines = np.array([math.sin(angle) for angle in listed])
-        scale = sines / length
         made = np.empty((len(turns), 4))
-        made[:, 0] = [math.cos(angle) for angle in listed]
+        if exact:
+            # One by one, as numpy's sines and cosines differ from machine to machine.
+            listed = half.tolist()
+            sines = np.array([math.sin(angle) for angle in listed])
+            made[:, 0] = [math.cos(angle) for angle in listed]
+        else:
+            sines = np.sin(half)
+            np.cos(half, out=made[:, 0])
+        scale = sines / length
         made[:, 1:] = axes * scale[:, None]
     made[~usable] = NO_TURN
     return made, usable

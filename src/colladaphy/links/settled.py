@@ -15,6 +15,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.columns.reading import Document
 from colladaphy.conform.conventions import Clues, faults_of_others, recognised
 from colladaphy.conform.profiles import known_tops
@@ -169,7 +170,7 @@ class _Seen:
         if needed and None in texts:
             return False
         targets = np.array(list(found.values()), np.int64)
-        return bool(np.all(targets >= 0)) and set(np.unique(there[targets]).tolist()) <= codes
+        return bool(np.all(targets >= 0)) and set(distinct(there[targets]).tolist()) <= codes
 
     def binds_bodies(self) -> bool:
         """Instances and attachments name bodies and constraints of their models by plain sids."""

@@ -85,13 +85,13 @@ def poses_of(elements: Any) -> Poses:
     return poses_of_steps(Steps.of(elements))
 
 
-def poses_of_steps(steps: Steps) -> Poses:
-    """The poses of all elements, their steps composed in order."""
+def poses_of_steps(steps: Steps, *, exact: bool = True) -> Poses:
+    """The poses of all elements, their steps composed in order (see `quaternions_of_turns`)."""
     poses = Poses.none(steps.count)
     owner = steps.owner
     if not len(owner):
         return poses
-    single = _poses(steps)
+    single = _poses(steps, exact)
     for rows in _by_rank(owner):
         mine = owner[rows]
         inner = single.take(rows)
@@ -102,12 +102,12 @@ def poses_of_steps(steps: Steps) -> Poses:
     return poses
 
 
-def _poses(steps: Steps) -> Poses:
+def _poses(steps: Steps, exact: bool) -> Poses:
     """Each step as a pose."""
     turns = steps.turns
     single = Poses.of(len(turns), steps.values[:, :3], moved=~turns)
     if turns.any():
-        quaternions, turned = quaternions_of_turns(steps.values[turns])
+        quaternions, turned = quaternions_of_turns(steps.values[turns], exact=exact)
         rows = np.flatnonzero(turns)[turned]
         single.orientations[rows] = quaternions[turned]
         single.turned[rows] = True

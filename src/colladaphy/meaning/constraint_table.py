@@ -76,7 +76,7 @@ def frames_of(context: Context, rows: AttachmentRows) -> Poses:
     for name, steps, width in (("translate", rows.translate, 3), ("rotate", rows.rotate, 4)):
         assert steps.ordinals is not None
         steps.value = context.table(name, steps.ordinals, width)
-    return poses_of_steps(Steps.of(rows))
+    return poses_of_steps(Steps.of(rows), exact=False)
 
 
 def constraints_of(context: Context) -> Constraints:

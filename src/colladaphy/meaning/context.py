@@ -217,16 +217,14 @@ class Context:
     def is_within(self, ordinals: Array, *names: str) -> Array:
         """Which elements (n,) are children of elements of some names."""
         codes = [code for name in names for code in self.columns.codes_of(c(name))]
-        above = self.parent[ordinals]
-        return np.isin(self.columns.index.codes[np.maximum(above, 0)], codes) & (above >= 0)
+        return self.columns.have_code(self.parent[ordinals], codes)
 
     def ancestor(self, ordinals: Array, *names: str) -> Array:
         """The nearest elements (n,) of some names around elements; -1 for none."""
         codes = [code for name in names for code in self.columns.codes_of(c(name))]
         parent, current = self.parent, self.parent[ordinals].astype(np.int64)
-        every = self.columns.index.codes
         while True:
-            left = np.flatnonzero((current >= 0) & ~np.isin(every[np.maximum(current, 0)], codes))
+            left = np.flatnonzero((current >= 0) & ~self.columns.have_code(current, codes))
             if not len(left):
                 return current
             current[left] = parent[current[left]]
@@ -238,7 +236,7 @@ class Context:
     def is_named(self, elements: Array, *names: str) -> Array:
         """Which elements (n,) have one of some names; none where there is no element (-1)."""
         codes = [code for name in names for code in self.columns.codes_of(c(name))]
-        return np.isin(self.columns.index.codes[np.maximum(elements, 0)], codes) & (elements >= 0)
+        return self.columns.have_code(elements, codes)
 
     def label(self, element: int) -> str:
         """What an element is called in a message."""

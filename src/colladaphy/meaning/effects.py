@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.findings import Severity
 from colladaphy.links.rules import MISSING
 from colladaphy.meaning import scene_rules
@@ -85,7 +86,7 @@ def colours(context: Context) -> Iterator[Hit]:
         lists = context.at(FloatRows, elements).value
         bad = ~((lists.values >= 0.0) & (lists.values <= _MOST))
         owner = np.searchsorted(lists.offsets, np.flatnonzero(bad), side="right") - 1
-        for row in np.unique(owner).tolist():
+        for row in distinct(owner).tolist():
             shown = " ".join(f"{value:g}" for value in lists[row].tolist())
             yield Hit(scene_rules.COLOR, int(elements[row]), f"The colour is {shown}.")
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.columns.reading import Document
 from colladaphy.findings import Finding, Rule, Severity
 from colladaphy_schema.rows import Column, Rows
@@ -49,7 +50,7 @@ def findings_of(
     kept.sort(key=lambda hit: (hit.element, hit.rule.code))
     elements = [hit.element for hit in kept]
     related = sorted({element for hit in kept for element in hit.related})
-    wanted = np.unique(np.array([*elements, *related], np.int64))
+    wanted = distinct(np.array([*elements, *related], np.int64))
     paths = dict(zip(wanted.tolist(), _paths(columns, wanted), strict=True))
     places = dict(zip(wanted.tolist(), columns.places.places(wanted), strict=True))
     sids = dict(zip(wanted.tolist(), _attribute(columns, wanted, "sid"), strict=True))
@@ -93,7 +94,7 @@ def _paths(columns: Document, elements: Array) -> list[str]:
     while len(current):
         current = current[~needed[current]]
         needed[current] = True
-        current = np.unique(parent[current])
+        current = distinct(parent[current])
         current = current[current >= 0]
     codes, inverse = np.unique(columns.index.codes, return_inverse=True)
     firsts = np.zeros(len(codes), np.int64)

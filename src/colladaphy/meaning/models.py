@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.errors import ColladaError
 from colladaphy.links.addresses import split_reference
 from colladaphy.links.names import c
@@ -218,7 +219,7 @@ def constraints_once(context: Context) -> Iterator[Hit]:
     """Constraints that are instanced twice."""
     found = instanced_constraints(context)
     keys = (found.around * len(context.parent) + found.parts)[found.parts >= 0]
-    if len(np.unique(keys)) == len(keys):
+    if len(distinct(keys)) == len(keys):
         return
     seen: dict[tuple[int, int], int] = {}
     for element, around, part in zip(

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.links.affine import skew_matrix, stretch_of
 from colladaphy.links.rules import NOT_RIGID, SEVERAL_PLACES
 from colladaphy.links.steps import matrix_of, own_transforms
@@ -118,7 +119,7 @@ def _apart(context: Context) -> Iterator[Hit]:
         # Nearly always every body has a node of its own.
         targets = np.array([nodes.targets[each] for each in instances.tolist()], np.int64)
         keys = (above * len(context.parent) + targets)[targets >= 0]
-        if len(np.unique(keys)) == len(keys):
+        if len(distinct(keys)) == len(keys):
             return
     scenes = above.tolist()
     twice = {hit.element for hit in ends(context)}

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import base64
-import hashlib
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,6 +9,7 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.findings import Finding, Severity
 from colladaphy.links.names import COLLADA, PE
 from colladaphy.meaning import profile_rules
@@ -132,7 +131,7 @@ def numbers(context: Context) -> Iterator[Hit]:
         bad = np.isnan(values.values) if name in _NUMBERS else ~np.isfinite(values.values)
         if bad.any():
             owner = np.searchsorted(values.offsets, np.flatnonzero(bad), side="right") - 1
-            for row in np.unique(owner).tolist():
+            for row in distinct(owner).tolist():
                 shown = " ".join(f"{value:g}" for value in values[row].tolist())
                 yield Hit(profile_rules.NUMBER, int(elements[row]), f"<pe:{name}> is {shown}.")
         if name == "normal":
@@ -154,7 +153,7 @@ def ranges(context: Context) -> Iterator[Hit]:
             continue
         lists = profile.lists(name)
         low = lists.values < 0.0 if least == 0.0 else lists.values <= 0.0
-        for row in np.unique(
+        for row in distinct(
             np.searchsorted(lists.offsets, np.flatnonzero(low), side="right") - 1
         ).tolist():
             shown = " ".join(f"{value:g}" for value in lists[row].tolist())
@@ -212,7 +211,11 @@ def links(context: Context) -> Iterator[Hit]:
             yield from reference_hits(
                 context, element, key, text, ("physics_material",), severity=Severity.ERROR
             )
-    for element in profile.elements("engine_state").tolist():
+    states = profile.elements("engine_state").tolist()
+    if states:
+        import base64
+        import hashlib
+    for element in states:
         text = context.at(TextRows, np.array([element])).value[0]
         wanted = (context.columns.attribute_of(element, "sha256") or "").lower()
         try:
@@ -294,20 +297,13 @@ def unions(context: Context) -> Iterator[Hit]:
 
 def _holders(context: Context, elements: Array) -> Array:
     """The pe:body around each element; -1 for none."""
-    codes = set(profile_codes(context))
-    index = context.columns.index
-    found = index.parent[elements].astype(np.int64)
+    codes = context.columns.codes_of(f"{{{PE}}}body")
+    found = context.parent[elements].astype(np.int64)
     while True:
-        left = np.flatnonzero((found >= 0) & ~np.isin(index.codes[np.maximum(found, 0)],
-                                                      list(codes)))  # fmt: skip
+        left = np.flatnonzero((found >= 0) & ~context.columns.have_code(found, codes))
         if not len(left):
             return np.asarray(found)
-        found[left] = index.parent[found[left]]
-
-
-def profile_codes(context: Context) -> tuple[int, ...]:
-    """The codes of pe:body."""
-    return context.columns.codes_of(f"{{{PE}}}body")
+        found[left] = context.parent[found[left]]
 
 
 CHECKS = (places, namespaces, numbers, ranges, pairs, links, ids, once, unions)

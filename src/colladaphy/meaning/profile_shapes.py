@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.links.names import p
 from colladaphy.links.poses import Poses, quaternion_product, reach, unit_quaternions
 from colladaphy.meaning.comparing import are_numbers, matched
 from colladaphy.meaning.constraint_table import AttachmentRows, frames_of
@@ -69,20 +70,21 @@ class Kept:
     """A value of elements of the profile, by the element that it is of."""
 
     def __init__(self, context: Context, name: str, width: int, *outer: str) -> None:
-        elements, around, values = profile_of(context).values(name, width, *outer)
-        order = np.argsort(around, kind="stable")
-        self.around: Array = around[order]
-        self.elements: Array = elements[order]
-        """(n,) the elements that state the value."""
-        self.values: Array = values[order]
-        """(n, width) what they state."""
+        self.elements, around, self.values = profile_of(context).values(name, width, *outer)
+        self._rows = np.full(len(context.parent), -1, np.int32)
+        self._rows[around] = np.arange(len(around), dtype=np.int32)
+        self.are_numbers: Array = are_numbers(self.values)
+        """(n,) which values are numbers."""
 
     def rows(self, wanted: Array) -> Array:
         """The rows (n,) of what elements state; -1 for nothing."""
-        made = np.full(len(wanted), -1, np.int64)
-        mine, at = matched(self.around, wanted)
-        made[mine] = at
-        return made
+        found: Array = self._rows[wanted]
+        return found
+
+    def faulty(self, rows: Array) -> Array:
+        """Which of some rows (n,), or -1, are of values that are no numbers."""
+        found: Array = (rows >= 0) & ~np.append(self.are_numbers, True)[rows]
+        return found
 
 
 class Places:
@@ -103,45 +105,35 @@ class Places:
         Also the largest numbers (n,) that say so, whether any do (n,), and whether all are
         numbers (n,).
         """
-        made = self._own(shapes)
-        sizes, told = reach(made.positions), self.are_told(shapes)
-        good = self._good(shapes)
-        unions = profile_of(self.context).elements("union")
+        columns = self.context.columns
+        made, told, good = self._own(shapes)
+        sizes = reach(made.positions)
         inner, above = np.arange(len(shapes)), self.context.parent[shapes]
         while True:
-            inside, _ = matched(unions, above)
+            inside = np.flatnonzero(columns.have_code(above, columns.codes_of(p("union"))))
             if not len(inside):
                 return made, sizes, told, good
             inner, above = inner[inside], above[inside]
-            step = self._own(above)
+            step, is_told, is_good = self._own(above)
             sizes[inner] = np.maximum(sizes[inner], reach(step.positions))
-            told[inner] |= self.are_told(above)
-            good[inner] &= self._good(above)
+            told[inner] |= is_told
+            good[inner] &= is_good
             made.put(inner, step.then(made.take(inner)))
             above = self.context.parent[above]
 
-    def _own(self, elements: Array) -> Poses:
-        """Where elements stand in the next ones around them."""
+    def _own(self, elements: Array) -> tuple[Poses, Array, Array]:
+        """Where elements stand in the next ones around them, if told (n,), by numbers (n,)."""
         made = Poses.none(len(elements))
-        at = self.positions.rows(elements)
-        mine = np.flatnonzero(at >= 0)
-        made.positions[mine], made.moved[mine] = self.positions.values[at[mine]], True
-        at = self.orientations.rows(elements)
-        mine = np.flatnonzero(at >= 0)
-        given = self.orientations.values[at[mine]]
+        places, turns = self.positions.rows(elements), self.orientations.rows(elements)
+        mine = np.flatnonzero(places >= 0)
+        made.positions[mine], made.moved[mine] = self.positions.values[places[mine]], True
+        mine = np.flatnonzero(turns >= 0)
+        given = self.orientations.values[turns[mine]]
         some = given.any(axis=1)  # what is all zero is no turn
         made.orientations[mine[some]] = unit_quaternions(given[some])
         made.turned[mine[some]] = True
-        return made
-
-    def _good(self, elements: Array) -> Array:
-        """Which elements (n,) state only numbers."""
-        made = np.ones(len(elements), np.bool_)
-        for kept in (self.positions, self.orientations):
-            at = kept.rows(elements)
-            mine = np.flatnonzero(at >= 0)
-            made[mine] &= are_numbers(kept.values[at[mine]])
-        return made
+        good = ~(self.positions.faulty(places) | self.orientations.faulty(turns))
+        return made, (places >= 0) | (turns >= 0), good
 
 
 def shape_poses(context: Context) -> Poses:

@@ -45,7 +45,7 @@ class Profile:
         found = self.elements(name)
         above = self.context.parent[found]
         codes = [code for each in outer for code in self.context.columns.codes_of(p(each))]
-        mine = np.flatnonzero(np.isin(self.context.columns.index.codes[above], codes))
+        mine = np.flatnonzero(self.context.columns.have_code(above, codes))
         first = self.lists(name).offsets[mine]
         values = self.lists(name).values[first[:, None] + np.arange(width)]
         return found[mine], above[mine], values

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.meaning import kinematics_rules
 from colladaphy.meaning.context import Context, FloatRows, NamedRows, TextRows
 from colladaphy.meaning.hits import Hit
@@ -32,10 +33,10 @@ def numbers(context: Context) -> Iterator[Hit]:
             continue
         lists = context.at(FloatRows, mine).value
         owner = np.repeat(np.arange(len(mine)), np.diff(lists.offsets))
-        for row in np.unique(owner[np.isnan(lists.values)]).tolist():
+        for row in distinct(owner[np.isnan(lists.values)]).tolist():
             yield Hit(kinematics_rules.NUMBER, int(mine[row]), f"The {name} is NaN.")
         if name in _RATES:
-            for row in np.unique(owner[lists.values < 0.0]).tolist():
+            for row in distinct(owner[lists.values < 0.0]).tolist():
                 shown = " ".join(f"{value:g}" for value in lists[row].tolist())
                 yield Hit(kinematics_rules.RATE, int(mine[row]), f"The {name} is {shown}.")
 
@@ -138,7 +139,7 @@ def _axes(context: Context) -> dict[tuple[str, str], int]:
     """The axes of joints by the sids of both, where these mean one only."""
     rows = context.rows(NamedRows, "revolute", "prismatic")
     assert rows.ordinals is not None
-    above = context.at(NamedRows, np.unique(context.parent[rows.ordinals]))
+    above = context.at(NamedRows, distinct(context.parent[rows.ordinals]))
     assert above.ordinals is not None
     names = dict(zip(above.ordinals.tolist(), above.sid, strict=True))
     found: defaultdict[tuple[str, str], list[int]] = defaultdict(list)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.findings import Severity
 from colladaphy.meaning import physics_rules
 from colladaphy.meaning.body_table import bodies_of
@@ -207,7 +208,7 @@ def _profiled(context: Context) -> Array:
     above = context.parent[techniques]
     made[np.isin(bodies.elements, above)] = True
     extra = context.parent[np.maximum(above, 0)]
-    materials = np.unique(extra[context.is_named(extra, "physics_material")])
+    materials = distinct(extra[context.is_named(extra, "physics_material")])
     if len(materials):
         users = context.rows(Rows, "instance_physics_material")
         assert users.ordinals is not None

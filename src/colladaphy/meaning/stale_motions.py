@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.links.poses import DEGREE, Poses, unit_quaternions
 from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.comparing import DIGITS, TURN, matched, old
@@ -33,7 +34,7 @@ def motions(context: Context) -> Iterator[Hit]:
     if not len(turns) and not len(places):
         return
     nodes, unclear = nodes_of(context), unclear_nodes(context)
-    elements = np.unique(np.concatenate([turned, placed]))
+    elements = distinct(np.concatenate([turned, placed]))
     holders = profile.holders(elements)
     targets = np.array([nodes.targets.get(holder, -1) for holder in holders.tolist()], np.int64)
     parents = [

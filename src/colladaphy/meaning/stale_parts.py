@@ -43,9 +43,7 @@ def planes(context: Context) -> Iterator[Hit]:
     kept = {name: Kept(context, name, width, "plane")
             for name, width in (("normal", 3), ("displacement", 1), ("anchor", 3))}  # fmt: skip
     for each in kept.values():
-        found = each.rows(elements[mine])
-        there = np.flatnonzero(found >= 0)
-        good[there] &= are_numbers(each.values[found[there]])
+        good &= ~each.faulty(each.rows(elements[mine]))
     mine, at, lengths = mine[good], at[good], lengths[good]
     poses = shape_poses(context).take(rows.owner[at])
     normals = rotate_vectors(poses.orientations, equations[at, :3] / lengths[:, None])
@@ -180,9 +178,7 @@ def frames(context: Context) -> Iterator[Hit]:
         places = Kept(context, "position", 3, name)
         turns = Kept(context, "orientation", 4, name)
         for each in (places, turns):
-            at = each.rows(elements[mine])
-            there = np.flatnonzero(at >= 0)
-            good[there] &= are_numbers(each.values[at[there]])
+            good &= ~each.faulty(each.rows(elements[mine]))
         own, attachments = elements[mine[good]], attachments[good]
         stated = table.frames[side].take(rows[good])
         at = places.rows(own)

@@ -93,7 +93,7 @@ def fixed(context: Context) -> Iterator[Hit]:
     profile, bodies = profile_of(context), bodies_of(context)
     kept = profile.elements("fixed")
     bodies_kept = context.columns.codes_of(p("body"))
-    kept = kept[np.isin(context.columns.index.codes[context.parent[kept]], bodies_kept)]
+    kept = kept[context.columns.have_code(context.parent[kept], bodies_kept)]
     mine, rows = matched(bodies.elements, profile.holders(kept))
     if not len(mine):
         return

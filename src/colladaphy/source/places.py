@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from xml.parsers import expat
 
 __all__ = ["locate"]
 
@@ -29,6 +28,8 @@ def locate(data: bytes, paths: Iterable[str]) -> dict[str, tuple[int, int]]:
     `data` is a document that was parsed without complaint. One more pass over it is needed, so
     this is for documents with findings. Empty where its encoding is a rare one.
     """
+    from xml.parsers import expat
+
     root = _Branch()
     for path in paths:
         branch = root
