@@ -131,7 +131,9 @@ def inertias(count: int) -> World:
     world = _world()
     columns = bodies(Kind.BOX, count, world)
     halves = np.random.default_rng(count).uniform(0.5, 2.0, (count, 3, 3))
-    columns.inertias = halves @ halves.transpose(0, 2, 1) + np.eye(3)
+    spread = halves @ halves.transpose(0, 2, 1)  # of mass, so that there is such a body
+    traces = np.trace(spread, axis1=1, axis2=2)[:, None, None]
+    columns.inertias = traces * np.eye(3) - spread
     world.extend(columns)
     return world
 

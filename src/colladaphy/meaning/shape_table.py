@@ -177,10 +177,9 @@ def _measure(context: Context, geometry: int) -> tuple[float, float]:
     surface = surface_of(context, geometry)
     if surface is None:
         return np.nan, np.nan
-    reach = float(np.linalg.norm(surface.points, axis=1).max())
     if not (surface.is_closed and surface.is_consistent):
-        return np.nan, reach
-    return abs(surface.volume), reach
+        return np.nan, surface.reach
+    return abs(surface.volume), surface.reach
 
 
 def shapes_of(context: Context) -> Shapes:

@@ -1,7 +1,11 @@
-"""The surfaces of geometries as triangles (COLLADA 1.5 §mesh)."""
+"""The surfaces of geometries, measured (COLLADA 1.5 §mesh, §convex_mesh).
+
+Many are measured at once: most documents have few large ones or very many small ones.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,52 +22,109 @@ __all__ = ["Surface", "surface_of"]
 
 Array = NDArray[Any]
 
+_AT_ONCE = 1 << 20
+"""Corners that are measured at once, so that the tables for it stay small."""
+
 
 @dataclass(slots=True)
 class Surface:
-    """The faces of a geometry as triangles, equal points made one."""
+    """What is known of the faces of a geometry, equal points made one."""
 
-    points: Array
-    """(n, 3)."""
-    triangles: Array
-    """(m, 3), fans of the faces."""
     is_closed: bool
     is_consistent: bool
     """Whether faces that share an edge are wound alike."""
-    edges: Array
-    """(k, 2) the edges of faces, along their winding."""
-    edge_faces: Array
-    """(k,) the first triangle of the face of each edge."""
-
-    @property
-    def volume(self) -> float:
-        """The signed volume; positive where it is wound outwards."""
-        if not len(self.triangles):
-            return 0.0
-        middle = self.points.mean(axis=0)
-        one, two, three = (self.points[self.triangles[:, k]] - middle for k in range(3))
-        return float(np.sum(np.cross(one, two) * three)) / 6.0
-
-    @property
-    def extent(self) -> float:
-        """The largest side of the box around it."""
-        return float(np.ptp(self.points, axis=0).max(initial=0.0)) if len(self.points) else 0.0
+    volume: float
+    """With its sign; positive where it is wound outwards."""
+    extent: float
+    """The largest side of the box around it."""
+    reach: float
+    """How far its farthest point is from the origin."""
+    dent: float
+    """How far it is from convex across its edges, if it is closed and wound outwards."""
 
 
-def _rings(context: Context, geometry_of: dict[int, int]) -> dict[int, list[tuple[Array, Array]]]:
+def surface_of(context: Context, geometry: int) -> Surface | None:
+    """The surface of a geometry; None where it has faulty indices, numbers or none at all."""
+    return context.shared(_surfaces).get(geometry)
+
+
+def _surfaces(context: Context) -> dict[int, Surface]:
+    """The surfaces of all geometries that can be read."""
+    found: dict[int, Surface] = {}
+    waiting: list[_Faces] = []
+    corners = 0
+    for faces in _readable(context):
+        waiting.append(faces)
+        corners += len(faces.corners)
+        if corners >= _AT_ONCE:
+            found.update(_measured(waiting))
+            waiting, corners = [], 0
+    found.update(_measured(waiting))
+    return found
+
+
+@dataclass(slots=True)
+class _Faces:
+    """The faces of one geometry."""
+
+    geometry: int
+    points: Array
+    """(n, 3)."""
+    corners: Array
+    """(m,) the points of all faces, one after the other."""
+    sizes: Array
+    """(k,) the corners of each face."""
+
+
+def _readable(context: Context) -> Iterator[_Faces]:
+    inputs, sources = inputs_of(context), sources_of(context)
+    vertices = context.ordinals("vertices")
+    at = dict(zip(context.ancestor(vertices, "geometry").tolist(), vertices.tolist(), strict=True))
+    for geometry, rings in _rings(context).items():
+        source = inputs.source(at[geometry], "POSITION") if geometry in at else -1
+        points = None if source < 0 else sources.numbers(source)
+        if points is None or points.shape[1] < 3:
+            continue
+        corners, sizes = rings[0]
+        if len(rings) > 1:
+            corners = np.concatenate([part for part, _ in rings])
+            sizes = np.concatenate([part for _, part in rings])
+        if len(corners) and len(points):
+            yield _Faces(geometry, points[:, :3], corners, sizes)
+
+
+def _usable(faces: list[_Faces]) -> list[_Faces]:
+    """Those with numbers for points, with no corner beyond these, and three corners a face."""
+    good = np.ones(len(faces), np.bool_)
+    for parts, wrong in (
+        ([each.points for each in faces], lambda points: ~np.isfinite(points).all(axis=1)),
+        ([each.sizes for each in faces], lambda sizes: counted(sizes) < 3),
+    ):
+        owner = np.repeat(np.arange(len(faces)), [len(part) for part in parts])
+        good[owner[wrong(np.concatenate(parts))]] = False
+    lengths = np.array([len(each.corners) for each in faces])
+    corners = counted(np.concatenate([each.corners for each in faces]))
+    most = np.maximum.reduceat(corners, np.cumsum(lengths) - lengths)
+    good &= most < [len(each.points) for each in faces]
+    return [faces[row] for row in np.flatnonzero(good).tolist()]
+
+
+def _rings(context: Context) -> dict[int, list[tuple[Array, Array]]]:
     """The corners, and the sizes, of the faces of each geometry."""
-    inputs = inputs_of(context)
-    found: dict[int, list[tuple[Array, Array]]] = {}
+    inputs, groups = inputs_of(context), groups_of(context)
+    elements = np.array([group.element for group in groups], np.int64)
+    around = context.ancestor(elements, "geometry").tolist()
     # Of what is not counted right, nobody can tell the faces.
-    wrong = {geometry_of.get(element, -1) for element in miscounted(context)}
-    for group in groups_of(context):
-        geometry = geometry_of.get(group.element, -1)
+    faulty = miscounted(context)
+    wrong = {at for group, at in zip(groups, around, strict=True) if group.element in faulty}
+    found: dict[int, list[tuple[Array, Array]]] = {}
+    for group, geometry in zip(groups, around, strict=True):
         row = inputs.named(group.element, "VERTEX")
         if geometry < 0 or geometry in wrong or row < 0 or group.name in ("lines", "linestrips"):
             continue
-        corners = [values[int(inputs.offsets[row]) :: group.stride] for _, values in group.parts]
         made = found.setdefault(geometry, [])
-        for part in corners:
+        for _, values in group.parts:
+            part = values[int(inputs.offsets[row]) :: group.stride]
             if group.name == "triangles":
                 made.append((part[: len(part) // 3 * 3], np.full(len(part) // 3, 3)))
             elif group.name == "polylist":
@@ -80,66 +141,112 @@ def _rings(context: Context, geometry_of: dict[int, int]) -> dict[int, list[tupl
                 if group.name == "tristrips":
                     fan[1::2] = fan[1::2, ::-1]
                 made.append((fan.reshape(-1), np.full(count, 3)))
-    return found
+    return {geometry: rings for geometry, rings in found.items() if rings}
 
 
-def surface_of(context: Context, geometry: int) -> Surface | None:
-    """The surface of a geometry; None where it has faulty indices, numbers or none at all."""
-    known = context.shared(_known_surfaces)
-    if geometry not in known:
-        known[geometry] = _made(context, geometry)
-    return known[geometry]
-
-
-def _known_surfaces(context: Context) -> dict[int, Surface | None]:
-    return {}
-
-
-def _all_rings(context: Context) -> dict[int, list[tuple[Array, Array]]]:
-    groups = np.array([group.element for group in groups_of(context)], np.int64)
-    around = context.ancestor(groups, "geometry") if len(groups) else groups
-    return _rings(context, dict(zip(groups.tolist(), around.tolist(), strict=True)))
-
-
-def _vertices_of(context: Context) -> dict[int, int]:
-    elements = context.ordinals("vertices")
-    around = context.ancestor(elements, "geometry")
-    return dict(zip(around.tolist(), elements.tolist(), strict=True))
-
-
-def _made(context: Context, geometry: int) -> Surface | None:
-    rings = context.shared(_all_rings).get(geometry)
-    vertices = context.shared(_vertices_of).get(geometry)
-    if not rings or vertices is None:
-        return None
-    source = inputs_of(context).source(vertices, "POSITION")
-    points = None if source < 0 else sources_of(context).numbers(source)
-    if points is None or points.shape[1] < 3 or not len(points) or not np.isfinite(points).all():
-        return None
-    corners = counted(np.concatenate([part for part, _ in rings]))
-    sizes = counted(np.concatenate([part for _, part in rings]))
-    if not len(corners) or int(corners.max()) >= len(points) or bool(np.any(sizes < 3)):
-        return None
-    distinct, inverse = np.unique(points[:, :3] + 0.0, axis=0, return_inverse=True)
-    corners = inverse.reshape(-1)[corners]
+def _measured(faces: list[_Faces]) -> Iterator[tuple[int, Surface]]:
+    faces = _usable(faces) if faces else []
+    if not faces:
+        return
+    points, corners, home, first = _joined(faces)
+    sizes = counted(np.concatenate([each.sizes for each in faces]))
     ends = np.cumsum(sizes)
     starts = ends - sizes
+    owner = home[corners[starts]]
+    """(k,) the geometry of each face."""
+    closed, consistent = _edges(corners, starts, ends, home, len(first))
+    triangles = _triangles(corners, starts, sizes)
+    mine = np.repeat(owner, sizes - 2)
+    """(m,) the geometry of each triangle."""
+    least, most = np.minimum.reduceat(points, first), np.maximum.reduceat(points, first)
+    extents = (most - least).max(axis=1)
+    counts = np.diff(np.append(first, len(points)))
+    middles = np.add.reduceat(points, first) / counts[:, None]
+    one, two, three = (points[triangles[:, k]] - middles[mine] for k in range(3))
+    begin = np.searchsorted(mine, np.arange(len(faces)))
+    volumes = np.add.reduceat(np.sum(np.cross(one, two) * three, axis=1), begin) / 6.0
+    reaches = np.maximum.reduceat(np.linalg.norm(points, axis=1), first)
+    whole = closed & consistent & (volumes > 0.0)
+    dents = _dents(points, triangles, mine, whole)
+    columns = (closed, consistent, volumes, extents, reaches, dents)
+    for each, *values in zip(faces, *(column.tolist() for column in columns), strict=True):
+        yield each.geometry, Surface(*values)
+
+
+def _joined(faces: list[_Faces]) -> tuple[Array, Array, Array, Array]:
+    """The different points of all, the corners as numbers of these, their geometries, the firsts.
+
+    The points of a geometry stand together.
+    """
+    counts = np.array([len(each.points) for each in faces])
+    base = np.cumsum(counts) - counts
+    points = np.concatenate([each.points for each in faces]) + 0.0
+    home = np.repeat(np.arange(len(faces)), counts)
+    corners = counted(np.concatenate([each.corners for each in faces]))
+    corners += np.repeat(base, [len(each.corners) for each in faces])
+    order = np.lexsort((points[:, 2], points[:, 1], points[:, 0], home))
+    points, home = points[order], home[order]
+    new = np.ones(len(points), np.bool_)
+    new[1:] = (points[1:] != points[:-1]).any(axis=1) | (home[1:] != home[:-1])
+    number = np.empty(len(points), np.int64)
+    number[order] = np.cumsum(new) - 1
+    home = home[new]
+    return points[new], number[corners], home, np.searchsorted(home, np.arange(len(faces)))
+
+
+def _edges(
+    corners: Array, starts: Array, ends: Array, home: Array, count: int
+) -> tuple[Array, Array]:
+    """Which geometries have all their edges twice, and which along both ways alike."""
     after = np.append(corners[1:], 0)
     after[ends - 1] = corners[starts]
+    real = corners != after
+    one, other = corners[real], after[real]
+    width = len(home)
+    forward, backward = np.sort(one * width + other), np.sort(other * width + one)
+    consistent, closed = np.ones(count, np.bool_), np.ones(count, np.bool_)
+    consistent[home[forward[forward != backward] // width]] = False
+    edges, counts = np.unique(
+        np.minimum(one, other) * width + np.maximum(one, other), return_counts=True
+    )
+    closed[home[edges[counts % 2 == 1] // width]] = False
+    return closed, consistent
+
+
+def _triangles(corners: Array, starts: Array, sizes: Array) -> Array:
+    """The fans (m, 3) of faces."""
     faces = sizes - 2
     first = np.cumsum(faces) - faces
-    owner = np.repeat(np.arange(len(sizes)), sizes)
-    real = corners != after
-    edges = np.stack([corners, after], axis=1)[real]
-    owner = owner[real]
     number = np.arange(int(faces.sum())) - np.repeat(first, faces)
     begin = np.repeat(starts, faces)
-    triangles = np.stack([corners[begin], corners[begin + number + 1],
-                          corners[begin + number + 2]], axis=1)  # fmt: skip
-    forward = edges[:, 0] * len(distinct) + edges[:, 1]
-    backward = edges[:, 1] * len(distinct) + edges[:, 0]
-    _, counts = np.unique(np.minimum(forward, backward), return_counts=True)
-    closed = bool(np.all(counts % 2 == 0))
-    there = np.sort(forward)
-    consistent = bool(np.array_equal(there, np.sort(backward)))
-    return Surface(distinct, triangles, closed, consistent, edges, first[owner])
+    return np.stack(
+        [corners[begin], corners[begin + number + 1], corners[begin + number + 2]], axis=1
+    )
+
+
+def _dents(points: Array, triangles: Array, mine: Array, wanted: Array) -> Array:
+    """How far surfaces (n,) that are closed and wound outwards are from convex across edges."""
+    made = np.zeros(len(wanted))
+    kept = wanted[mine]
+    triangles, mine = triangles[kept], mine[kept]
+    if not len(triangles):
+        return made
+    one, two, three = (points[triangles[:, k]] for k in range(3))
+    normals = np.cross(two - one, three - one)
+    length = np.linalg.norm(normals, axis=1)
+    sizes = np.zeros(len(wanted))
+    np.maximum.at(sizes, mine, length)
+    # All edges of the triangles, those across faces included, and the corner opposite to each.
+    edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    opposite = np.concatenate([triangles[:, (k + 2) % 3] for k in range(3)])
+    owner = np.tile(np.arange(len(triangles)), 3)
+    width = len(points)
+    forward, backward = edges[:, 0] * width + edges[:, 1], edges[:, 1] * width + edges[:, 0]
+    # Of what is closed, each edge is there as often along both ways.
+    beside = np.empty_like(forward)
+    beside[np.argsort(backward, kind="stable")] = np.argsort(forward, kind="stable")
+    good = (forward[beside] == backward) & (length[owner] > 1e-12 * sizes[mine[owner]])
+    here, there = owner[good], opposite[beside[good]]
+    heights = np.sum(normals[here] * (points[there] - one[here]), axis=1) / length[here]
+    np.maximum.at(made, mine[here], heights)
+    return made

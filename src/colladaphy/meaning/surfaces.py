@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import numpy as np
-
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.shape_table import shapes_of
-from colladaphy.meaning.surface_table import Surface, surface_of
+from colladaphy.meaning.surface_table import surface_of
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
@@ -57,8 +55,8 @@ def convex_meshes(context: Context) -> Iterator[Hit]:
         elif surface.volume < 0.0:
             message = f"The faces of {name} are wound inwards."
             yield Hit(geometry_rules.INWARD, element, message, (geometry,))
-        elif (depth := _dent(surface)) > _TOLERANCE * surface.extent:
-            message = f"{name} is dented by {depth:.3g}."
+        elif surface.dent > _TOLERANCE * surface.extent:
+            message = f"{name} is dented by {surface.dent:.3g}."
             yield Hit(geometry_rules.NOT_CONVEX, element, message, (geometry,))
 
 
@@ -77,30 +75,6 @@ def faces(context: Context) -> Iterator[Hit]:
             instances = context.first_children("instance_geometry")
             element = instances.get(int(shapes.elements[row]), int(shapes.elements[row]))
             yield Hit(geometry_rules.NO_FACES, element, message, (others[geometry],), "url")
-
-
-def _dent(surface: Surface) -> float:
-    """How far a closed surface that is wound outwards is from convex across its edges."""
-    points, triangles = surface.points, surface.triangles
-    one, two, three = (points[triangles[:, k]] for k in range(3))
-    normals = np.cross(two - one, three - one)
-    length = np.linalg.norm(normals, axis=1)
-    size = float(length.max(initial=0.0))
-    if not size:
-        return 0.0
-    count = len(points)
-    # All edges of the triangles, those across faces included, and the corner opposite to each.
-    edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    opposite = np.concatenate([triangles[:, (k + 2) % 3] for k in range(3)])
-    owner = np.tile(np.arange(len(triangles)), 3)
-    forward, backward = edges[:, 0] * count + edges[:, 1], edges[:, 1] * count + edges[:, 0]
-    order = np.argsort(forward, kind="stable")
-    place = np.minimum(np.searchsorted(forward[order], backward), len(order) - 1)
-    beside = order[place]
-    good = (forward[beside] == backward) & (length[owner] > 1e-12 * size)
-    here, there = owner[good], opposite[beside[good]]
-    heights = np.sum(normals[here] * (points[there] - one[here]), axis=1) / length[here]
-    return float(heights.max(initial=0.0))
 
 
 def _cube(size: float) -> float:
