@@ -9,9 +9,10 @@ from copy import deepcopy
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
 from lxml import etree
+from tests.columns.test_accepting import planted
 from tests.meaning.test_cases import BASES, FAULTS, NEAR, Case
 
 import colladaphy
@@ -21,7 +22,7 @@ from colladaphy.findings import Finding, Severity
 from colladaphy.gate import gate
 from colladaphy.testing import documents
 from colladaphy.validation import older
-from colladaphy.validation.options import Options
+from colladaphy.validation.options import HUGE, LARGE, MANY, Options, is_large
 
 some = settings(max_examples=20, deadline=None, suppress_health_check=list(HealthCheck))
 
@@ -448,7 +449,7 @@ def test_of_large_documents_faults_of_form_are_told_first(monkeypatch: pytest.Mo
     data = start + b'<node id="a"><instance_node url="#none"/><wrong/></node>' + end
     told = {finding.code for finding in colladaphy.validate(data)}
     assert {"schema-unexpected-element", "link-missing"} <= told
-    monkeypatch.setattr("colladaphy.validation.behind.LARGE", len(data))
+    monkeypatch.setattr("colladaphy.validation.behind.is_large", lambda _: True)
     findings = list(colladaphy.validate(data))
     # The node itself is left out, for what is wrong in it.
     assert [finding.code for finding in findings] == ["schema-large", "schema-unexpected-element"]
@@ -465,7 +466,33 @@ def test_of_large_documents_faults_of_form_are_told_first(monkeypatch: pytest.Mo
     monkeypatch.setattr("colladaphy.validation.behind.HUGE", len(beside))
     codes = [finding.code for finding in colladaphy.validate(beside)]
     assert codes == ["schema-large", "schema-unexpected-element"]
-    monkeypatch.setattr("colladaphy.validation.stages.LARGE", 0)
+    monkeypatch.setattr("colladaphy.validation.stages.is_large", lambda _: True)
     valid = data.replace(b"<wrong/>", b"")
     missing = next(f for f in colladaphy.validate(valid) if f.code == "link-missing")
     assert missing.repair is None
+
+
+@given(st.integers(0, 10**9))
+def test_of_large_documents_the_same_faults_of_form_are_told(number: int) -> None:
+    data = planted(number)
+
+    def told() -> list[tuple[object, ...]]:
+        return [
+            (finding.code, finding.line, finding.path, finding.message, finding.repair)
+            for finding in colladaphy.validate(data)
+            if finding.stage == "schema" and finding.code != "schema-large"
+        ]
+
+    small = told()
+    assume(all(path != "/COLLADA" for _, _, path, _, _ in small))  # no record is around that
+    with pytest.MonkeyPatch.context() as patch:
+        for module in ("behind", "stages"):
+            patch.setattr(f"colladaphy.validation.{module}.is_large", lambda _: True)
+        assert told() == small
+
+
+def test_what_is_long_but_has_few_elements_is_no_large_document() -> None:
+    assert is_large(b"<a></a>" * (LARGE // 7 + 1))
+    assert not is_large(b"<a>" + b"1 " * LARGE + b"</a>")
+    assert is_large(b"<a>" + b"1 " * HUGE + b"</a>")
+    assert not is_large(b"<a></a>" * MANY)

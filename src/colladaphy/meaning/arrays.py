@@ -88,9 +88,9 @@ class Params:
         """The parameters of an accessor."""
         return self._by_accessor[accessor]
 
-    def each(self) -> Iterable[list[tuple[str, str, int]]]:
-        """The parameters of all accessors, one after the other."""
-        return self._by_accessor.values()
+    def each(self) -> Iterable[tuple[int, list[tuple[str, str, int]]]]:
+        """All accessors with their parameters, one after the other."""
+        return self._by_accessor.items()
 
     def width(self, accessor: int, stride: int) -> int:
         """How many values an item has; those without a name are passed over, if others have one."""

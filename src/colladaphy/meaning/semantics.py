@@ -131,8 +131,17 @@ def vertices(context: Context) -> Iterator[Hit]:
 
 
 def names(context: Context) -> Iterator[Hit]:
-    """Parameters of one accessor that have the same name."""
-    for each in params_of(context).each():
+    """Parameters of one accessor that have the same name.
+
+    Tangents have X and Y for each dimension of what they are the tangents of.
+    """
+    inputs, table = inputs_of(context), sources_of(context)
+    tangents = [row for row, semantic in enumerate(inputs.semantics)
+                if semantic.endswith("_TANGENT") and inputs.sources[row] >= 0]  # fmt: skip
+    several = set(table.accessors[inputs.sources[tangents]].tolist()) if tangents else set()
+    for accessor, each in params_of(context).each():
+        if accessor in several:
+            continue
         seen: dict[str, int] = {}
         for name, _, element in each:
             first = seen.setdefault(name, element)

@@ -22,11 +22,11 @@ from colladaphy.meaning import Hit, findings_of, hits_of
 from colladaphy.meaning.profile import strangers
 from colladaphy.meaning.profile_rules import NAMESPACE
 from colladaphy.source import COLLADA_1_4, COLLADA_1_5
-from colladaphy.validation.apart import without
+from colladaphy.validation.apart import only, without
 from colladaphy.validation.copies import Copy
 from colladaphy.validation.mendable import with_repairs
 from colladaphy.validation.older import violations_1_4
-from colladaphy.validation.options import HUGE, LARGE, NOTHING_BEHIND, Options
+from colladaphy.validation.options import HUGE, MANY, NOTHING_BEHIND, Options, is_large
 from colladaphy.validation.schema_stage import Found, schema_hits, with_schema_repairs
 from colladaphy.validation.touched import SEPARATORS, Touched, touched
 
@@ -73,11 +73,13 @@ def check_behind(came: Came, first: Found | None, options: Options) -> list[Find
     """Everything that is wrong with a document that is not valid COLLADA 1.5.
 
     `first` is what libxml2 says of a document of 1.5; None for another version. Of a large one no
-    copy is mended: the records that are faulty are left out.
+    copy is mended: the records that are faulty are looked at alone, and left out of the rest.
     """
-    if first and len(came.data) >= LARGE:
-        return came.told([*_of_form(came, first), *_behind_large(came, first)])
+    if first and len(came.data) >= HUGE:
+        return came.told([*_as_said(came, first), Hit(rules.LARGE, 0, NOTHING_BEHIND)])
     whole = Copy.of(came.tree)
+    if first and is_large(came.data):
+        return came.told([*_of_form(whole, first), *_behind_large(came, whole, first)])
     current = whole
     hits: list[Hit] = []
     if first is None:
@@ -124,7 +126,7 @@ def check_meaning(came: Came, resource: Resource, hits: list[Hit | Finding]) -> 
     return came.told([*others, *with_repairs(_translated(hits, shown), whole)])
 
 
-def _of_form(came: Came, first: Found) -> list[Hit]:
+def _as_said(came: Came, first: Found) -> list[Hit]:
     """What libxml2 says, for itself: for many elements, to look for more takes long."""
     wanted = {element for element, _ in first}
     numbers = {
@@ -138,11 +140,23 @@ def _of_form(came: Came, first: Found) -> list[Hit]:
     ]
 
 
-def _behind_large(came: Came, first: Found) -> list[Hit]:
+def _of_form(whole: Copy, first: Found) -> list[Hit]:
+    """The faults of form of a large document, each looked at in the record around it."""
+    part = only(whole, {element for element, _ in first}, MANY)
+    if part is None:
+        return [Hit(said.rule, whole.by_element[element], said.message, (), said.attribute)
+                for element, said in first]  # fmt: skip
+    hits = schema_hits(part.copy, [(part.twins[element], said) for element, said in first])
+    # What stands around the records lacks the others.
+    named = {whole.by_element[element] for element, _ in first}
+    hits = [hit for hit in hits if hit.element in part.inner or hit.element in named]
+    mended = part.copy.mended(FORM)
+    kept = tuple((code, number) for code, number in mended.repairs if number in part.inner)
+    return with_schema_repairs(hits, part.copy, replace(mended, repairs=kept))
+
+
+def _behind_large(came: Came, whole: Copy, first: Found) -> list[Hit]:
     """What the rest of a large document means, without the records that are faulty."""
-    if len(came.data) >= HUGE:
-        return [Hit(rules.LARGE, 0, NOTHING_BEHIND)]
-    whole = Copy.of(came.tree)
     rest, done = without(whole, {element for element, _ in first})
     if rest.tree.getroot() is None or violations(rest.tree):
         return [Hit(rules.LARGE, 0, NOTHING_BEHIND)]

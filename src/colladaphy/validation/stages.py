@@ -19,7 +19,7 @@ from colladaphy.source.mending import mend_text
 from colladaphy.source.places import locate
 from colladaphy.source.xml import COLLADA_1_5, root_start
 from colladaphy.validation.availability import availability
-from colladaphy.validation.options import HUGE, LARGE, Options
+from colladaphy.validation.options import HUGE, Options, is_large
 
 if TYPE_CHECKING:
     from lxml import etree
@@ -149,7 +149,7 @@ def _check_valid(
     with unchanging():
         resource = _resource(loaded, tree, family, columns=columns)
         hits = hits_of(resource, availability(loaded))
-        told = len(loaded.data) < LARGE and any(map(is_mendable, hits))
+        told = any(map(is_mendable, hits)) and not is_large(loaded.data)
         if told or resource.has_other_spelling:
             from colladaphy.validation.behind import check_meaning
 
