@@ -429,3 +429,20 @@ def test_a_valid_file_costs_little_more_than_the_libraries(tmp_path: Path) -> No
 
     libraries = spent("-c", "import click, lxml.etree, numpy")
     assert spent("-m", "colladaphy", "validate", "a.dae") < 2.5 * libraries
+
+
+@pytest.mark.parametrize(("asked", "threads"), [(None, "1"), ("3", "3")])
+def test_a_command_starts_no_threads_for_matrices(asked: str | None, threads: str) -> None:
+    """They would take longer than a small file."""
+    code = (
+        "import os, sys, colladaphy.cli\n"
+        "before = 'numpy' in sys.modules\n"
+        "try: colladaphy.cli.main(['--version'])\n"
+        "finally: print(before, os.environ['OPENBLAS_NUM_THREADS'])"
+    )
+    environment = {key: value for key, value in os.environ.items() if key != "OPENBLAS_NUM_THREADS"}
+    if asked is not None:
+        environment["OPENBLAS_NUM_THREADS"] = asked
+    done = subprocess.run([sys.executable, "-c", code], env=environment, capture_output=True,
+                          text=True, check=True)  # fmt: skip
+    assert done.stdout.splitlines()[-1] == f"False {threads}"

@@ -30,6 +30,9 @@ def group() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
     """Run a command and exit: 0 well, 1 findings, 2 usage or files, 3 a fault of ours."""
+    # Nothing here multiplies large matrices, and numpy's library for that starts a thread a core
+    # when it is imported: for a small file these take longer than all the rest.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):  # a name may hold what the console cannot show
             stream.reconfigure(errors="backslashreplace")
