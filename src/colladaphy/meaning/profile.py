@@ -57,10 +57,10 @@ _OF_PAIRS = {name: _OF_MATERIALS[name]
 _FINITE = (
     "position", "orientation", "linear_velocity", "angular_velocity", "force", "torque", "gravity",
     "time_step", "speed", "radius", "radii", "lengths", "length", "normal", "anchor",
-    "displacement",
+    "displacement", "mass", "inertia", "density",
 )  # fmt: skip
 _NUMBERS = (
-    "mass", "inertia", "min", "max", "stiffness", "damping", "target_value", "density", "strength",
+    "min", "max", "stiffness", "damping", "target_value", "strength",
     "poisson_ratio", "young_modulus", "damping_normal", "damping_tangential", "dynamic_friction",
     "restitution", "static_friction",
 )  # fmt: skip
@@ -264,10 +264,11 @@ def once(context: Context) -> Iterator[Hit]:
         holders = np.where(techniques >= 0, context.parent[techniques], -1)
         if name == "material":  # a world has many
             direct &= context.is_named(holders, "physics_material", "extra")
+        elements, holders = elements[direct], holders[direct]
+        if len(distinct(holders)) == len(holders):
+            continue
         seen: dict[int, int] = {}
-        for element, holder in zip(
-            elements[direct].tolist(), holders[direct].tolist(), strict=True
-        ):
+        for element, holder in zip(elements.tolist(), holders.tolist(), strict=True):
             if holder in seen:
                 message = f"There is a <pe:{name}> of {context.label(holder)} already."
                 yield Hit(profile_rules.TWICE, element, message, (seen[holder], holder))
