@@ -43,6 +43,7 @@ _BOUND = {
 }  # fmt: skip
 """What addresses in texts mean, by what these stand in."""
 _HOLDERS = ("axis", "value", "active", "locked", "min", "max", "bind_kinematics_model")
+_CSYMBOL = "{http://www.w3.org/1998/Math/MathML}csymbol"
 _MEMBER = re.compile(r"(\.[A-Za-z_]+|(?:\(\d+\))+)\Z")
 
 
@@ -51,7 +52,7 @@ def addresses(context: Context) -> Iterator[Hit]:
     for name, attribute in ADDRESSES:
         for reference in context.references(attribute, name):
             text = reference.text.strip()
-            if not text:
+            if not text or _is_elsewhere(context, reference.element):
                 continue
             lost = _lost(context, text)
             if lost is not None:
@@ -67,6 +68,35 @@ def addresses(context: Context) -> Iterator[Hit]:
                 message = f"{text!r} is a <{found}>, not {expected_text(expected)}."
                 yield Hit(WRONG_TYPE, reference.element, message, (target,), attribute,
                           Severity.WARNING)  # fmt: skip
+
+
+def _is_elsewhere(context: Context, element: int) -> bool:
+    """Whether what a parameter is of is an effect, or in another document."""
+    holder = int(context.parent[element])
+    if context.name(holder) == "setparam":
+        holder = int(context.parent[holder])
+    if context.name(element) not in ("setparam", "connect_param"):
+        return False
+    url = context.columns.attribute_of(holder, "url")
+    return context.name(holder) == "instance_effect" or (bool(url) and context.target(url) < 0)
+
+
+def formulas(context: Context) -> Iterator[Hit]:
+    """Addresses in formulas: of what they compute, and of what they compute it from."""
+    rows = context.rows(TextRows, "param")
+    assert rows.ordinals is not None
+    mine = rows.ordinals[np.flatnonzero(context.is_within(rows.ordinals, "target"))]
+    symbols = [context.columns.index.rows(code) for code in context.columns.codes_of(_CSYMBOL)]
+    for elements in (mine, *symbols):
+        for element, text in zip(
+            elements.tolist(), context.at(TextRows, elements).value, strict=True
+        ):
+            address = text.strip()
+            # A single word may be a function or a parameter of another program.
+            lost = _lost(context, address) if "/" in address else None
+            if lost is not None:
+                message = f"{address!r} leads nowhere: there is no {lost!r}."
+                yield Hit(MISSING, element, message, severity=Severity.WARNING)
 
 
 def sidrefs(context: Context) -> Iterator[Hit]:
@@ -148,4 +178,4 @@ def _through(context: Context, text: str) -> int:
     return target
 
 
-CHECKS = (addresses, sidrefs, parameters)
+CHECKS = (addresses, formulas, sidrefs, parameters)

@@ -26,6 +26,8 @@ _SIZES = {
     "yard": 0.9144, "yards": 0.9144, "mile": 1609.344, "miles": 1609.344,
 }  # fmt: skip
 _TOLERANCE = 0.01
+_FAR = 1e300
+"""What is not finite is further away."""
 
 
 class UnitRows(Rows):
@@ -98,14 +100,15 @@ def inner_assets(context: Context) -> Iterator[Hit]:
 
 def places(context: Context) -> Iterator[Hit]:
     """Locations that are not on Earth."""
-    for name, most in (("longitude", 180.0), ("latitude", 90.0)):
+    for name, most in (("longitude", 180.0), ("latitude", 90.0), ("altitude", _FAR)):
         rows = context.rows(FloatRows, name)
         if not len(rows):
             continue
         assert rows.ordinals is not None
         wrong = ~(np.abs(rows.value.values) <= most)
         for row in np.flatnonzero(wrong).tolist():
-            message = f"The {name} is {rows.value.values[row]} degrees."
+            unit = "metres" if name == "altitude" else "degrees"
+            message = f"The {name} is {rows.value.values[row]} {unit}."
             yield Hit(asset_rules.PLACE, int(rows.ordinals[row]), message)
 
 

@@ -17,13 +17,13 @@ from colladaphy.meaning.context import Context, FloatRows, NamedRows
 from colladaphy.meaning.hits import Hit, listed
 from colladaphy_schema.rows import Rows
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "RANGES", "inside"]
 
 Array = NDArray[Any]
 
 _MOST = 100.0
 """Above it a colour is meant from 0 to 255."""
-_RANGES = {
+RANGES = {
     "transparency": (0.0, 1.0),
     "reflectivity": (0.0, 1.0),
     "shininess": (0.0, np.inf),
@@ -31,7 +31,7 @@ _RANGES = {
 }
 
 
-def _inside(context: Context, name: str) -> Array:
+def inside(context: Context, name: str) -> Array:
     """The elements of a name in the techniques of effects."""
     found = context.every(name)
     techniques = context.ancestor(found, "technique")
@@ -41,7 +41,7 @@ def _inside(context: Context, name: str) -> Array:
 
 def parameters(context: Context) -> Iterator[Hit]:
     """References to parameters that the effect does not have."""
-    elements = _inside(context, "param")
+    elements = inside(context, "param")
     known = context.shared(_parameters)
     effects = context.ancestor(elements, "effect").tolist()
     texts = context.texts(context.at(Rows, elements), "ref")
@@ -82,7 +82,7 @@ def _parameters(context: Context) -> dict[int, set[str]]:
 def colours(context: Context) -> Iterator[Hit]:
     """Colours of effects and lights that are none."""
     lights = context.ordinals("color")
-    for elements in (_inside(context, "color"), lights[context.ancestor(lights, "light") >= 0]):
+    for elements in (inside(context, "color"), lights[context.ancestor(lights, "light") >= 0]):
         lists = context.at(FloatRows, elements).value
         bad = ~((lists.values >= 0.0) & (lists.values <= _MOST))
         owner = np.searchsorted(lists.offsets, np.flatnonzero(bad), side="right") - 1
@@ -93,8 +93,8 @@ def colours(context: Context) -> Iterator[Hit]:
 
 def numbers(context: Context) -> Iterator[Hit]:
     """Numbers of effects that are out of range."""
-    floats = _inside(context, "float")
-    for name, (least, most) in _RANGES.items():
+    floats = inside(context, "float")
+    for name, (least, most) in RANGES.items():
         mine = floats[context.is_within(floats, name)]
         if not len(mine):
             continue

@@ -209,7 +209,17 @@ ARRAY_BOUNDS = Rule(
     why="Programs that rely on the bounds refuse the number, or cut it off.",
 )
 
+SEMANTIC = Rule(
+    "geometry-semantic",
+    Severity.WARNING,
+    "The semantic of an input is spelled nearly as one of the standard.",
+    "Correct its spelling; semantics are in capitals.",
+    "COLLADA 1.5 §input",
+    why="Programs pass over what they do not know, so the values are not seen.",
+)
+
 RULES = (
+    SEMANTIC,
     INPUT_VALUES,
     ACCESSOR_MISSING,
     VERTEX_COUNT,

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.findings import Severity
+from colladaphy.links.rules import WRONG_TYPE
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.arrays import sources_of
 from colladaphy.meaning.context import Context
@@ -19,7 +20,7 @@ from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.links import reference_hits
 from colladaphy_schema.rows import Column, Masked, Rows
 
-__all__ = ["CHECKS", "PRIMITIVES", "Inputs", "inputs_of"]
+__all__ = ["CHECKS", "PRIMITIVES", "Inputs", "inputs_of", "needed_by"]
 
 Array = NDArray[Any]
 
@@ -105,6 +106,11 @@ def inputs_of(context: Context) -> Inputs:
     return context.shared(Inputs)
 
 
+def needed_by(name: str) -> tuple[str, ...]:
+    """The semantics that an element of a name cannot do without."""
+    return _NEEDED.get(name, ())
+
+
 def links(context: Context) -> Iterator[Hit]:
     """Inputs that lead nowhere, or to something else than sources."""
     inputs = inputs_of(context)
@@ -127,9 +133,17 @@ def links(context: Context) -> Iterator[Hit]:
         severity = Severity.WARNING
         if (semantic, found) in (("VERTEX", "source"), ("POSITION", "vertices")):
             severity = Severity.ERROR  # no reader finds the positions then
+        if found == "vertices" == expected[0] and not _is_beside(context, owner, int(target)):
+            message = f"{inputs.texts[row]!r} is the <vertices> of another mesh."
+            yield Hit(WRONG_TYPE, element, message, (int(target),), "source", Severity.WARNING)
+            continue
         yield from reference_hits(
             context, element, "source", inputs.texts[row], expected, severity=severity
         )
+
+
+def _is_beside(context: Context, one: int, other: int) -> bool:
+    return int(context.parent[one]) == int(context.parent[other])
 
 
 def needed(context: Context) -> Iterator[Hit]:

@@ -94,6 +94,14 @@ VERTEX_INPUT = Rule(
     "COLLADA 1.5 §bind_vertex_input",
     "The texture has no coordinates.",
 )
+PARAMETER_TYPE = Rule(
+    "link-parameter-type",
+    Severity.WARNING,
+    "A parameter of an effect is of another type than is needed.",
+    "Let it be of the type that is needed, or name another parameter.",
+    "COLLADA 1.5 §setparam",
+    why="Programs take the value for another one, or leave it out.",
+)
 TEXTURE_SAMPLER = Rule(
     "link-texture-sampler",
     Severity.WARNING,
@@ -159,6 +167,7 @@ RULES = (
     MATERIAL_UNBOUND,
     MATERIAL_TWICE,
     VERTEX_INPUT,
+    PARAMETER_TYPE,
     TEXTURE_SAMPLER,
     TEXTURE_COORDINATES,
     CHANNEL_MEMBER,

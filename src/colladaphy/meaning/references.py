@@ -33,6 +33,7 @@ URIS: Final = (
     Uri("instance_rigid_body", "target", ("node",)),
     Uri("instance_physics_model", "parent", ("node",)),
     Uri("instance_material", "target", ("material",)),
+    Uri("instance_material", "url", ("material",)),
     Uri("convex_mesh", "convex_hull_of", ("geometry",)),
     Uri("skin", "source", ("geometry", "controller")),
     Uri("morph", "source", ("geometry", "controller")),
@@ -67,6 +68,8 @@ ADDRESSES: Final = (
     ("bind_kinematics_model", "node"),
     ("bind_joint_axis", "target"),
     ("bind", "target"),
+    ("setparam", "ref"),
+    ("connect_param", "ref"),
 )
 """Attributes that hold SID addresses, through instances too (COLLADA 1.5 §Address syntax)."""
 

@@ -24,7 +24,7 @@ _DEGREES = 1e-6
 
 def numbers(context: Context) -> Iterator[Hit]:
     """Numbers of axes that are none, and rates below zero."""
-    elements = context.ordinals("float")
+    elements = context.ordinals("float", "float2", "float3")
     for name in _HOLDERS:
         mine = elements[context.is_within(elements, name)]
         around = context.ancestor(mine, "axis_info", "effector_info", "bind_joint_axis")

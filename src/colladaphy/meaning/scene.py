@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from colladaphy.meaning import scene_rules
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.radians import written_as_radians
 from colladaphy_schema.scene_columns import (
     LightTypeTechniqueCommonPointRows,
     LightTypeTechniqueCommonSpotRows,
@@ -59,6 +60,20 @@ def rotations(context: Context) -> Iterator[Hit]:
         yield Hit(
             scene_rules.ROTATE_AXIS, element, f"A rotation by {angle} degrees has the axis 0 0 0."
         )
+
+
+def radians(context: Context) -> Iterator[Hit]:
+    """Angles that are known parts of a circle in radians."""
+    values, elements = _table(context, "rotate", 4)
+    angles = [(values[:, 3], elements)]
+    for name in ("xfov", "yfov", "falloff_angle"):
+        each, places = _table(context, name, 1)
+        angles.append((each[:, 0], places))
+    for column, places in angles:
+        for row in np.flatnonzero(written_as_radians(column)).tolist():
+            turned = math.degrees(column[row])
+            message = f"The angle is {column[row]:g} degrees; as radians, it would be {turned:.4g}."
+            yield Hit(scene_rules.RADIANS, int(places[row]), message)
 
 
 def scales(context: Context) -> Iterator[Hit]:
@@ -170,6 +185,24 @@ def cameras(context: Context) -> Iterator[Hit]:
                     yield Hit(scene_rules.CAMERA_VIEW, element, f"The {name} is {value:g}.")
 
 
+def viewpoints(context: Context) -> Iterator[Hit]:
+    """Renderings from nodes that have no camera, nor instances that may have one."""
+    references = context.references("camera_node", "render")
+    if not references:
+        return
+    seeing: set[int] = set()
+    for element in context.ordinals("instance_camera", "instance_node").tolist():
+        node = int(context.parent[element])
+        while node >= 0 and node not in seeing:
+            seeing.add(node)
+            node = int(context.parent[node])
+    for reference in references:
+        node = context.target(reference.text.strip())
+        if node >= 0 and context.name(node) == "node" and node not in seeing:
+            message = f"{context.label(node)} has no camera."
+            yield Hit(scene_rules.CAMERA_NODE, reference.element, message, (node,), "camera_node")
+
+
 def lights(context: Context) -> Iterator[Hit]:
     """Lights with values out of range."""
     spots = context.rows(LightTypeTechniqueCommonSpotRows, "spot")
@@ -200,4 +233,15 @@ def lights(context: Context) -> Iterator[Hit]:
             yield Hit(scene_rules.LIGHT, element, f"The falloff exponent is {value:g}.")
 
 
-CHECKS = (numbers, rotations, scales, matrices, lookats, skews, cameras, lights)
+CHECKS = (
+    numbers,
+    rotations,
+    radians,
+    viewpoints,
+    scales,
+    matrices,
+    lookats,
+    skews,
+    cameras,
+    lights,
+)

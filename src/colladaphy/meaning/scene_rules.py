@@ -97,7 +97,26 @@ EFFECT_VALUE = Rule(
     why="Programs cut the number off, each in its own way.",
 )
 
+CAMERA_NODE = Rule(
+    "scene-camera-node",
+    Severity.WARNING,
+    "The node of a rendering has no camera.",
+    "Let camera_node refer to a node with an <instance_camera>.",
+    "COLLADA 1.5 §render",
+    why="Nothing says from where the scene is seen.",
+)
+RADIANS = Rule(
+    "scene-radians",
+    Severity.HINT,
+    "An angle looks like radians.",
+    "Give it in degrees: 90, not 1.5707963.",
+    "COLLADA 1.5 §rotate",
+    why="It turns by a degree or two where a large part of a circle is meant.",
+)
+
 RULES = (
+    CAMERA_NODE,
+    RADIANS,
     COLOR,
     EFFECT_VALUE,
     TRANSFORM_NUMBER,

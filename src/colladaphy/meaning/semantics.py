@@ -6,6 +6,7 @@ Rules about the values themselves look only at those that are of the kind that i
 from __future__ import annotations
 
 from collections.abc import Iterator
+from difflib import get_close_matches
 from typing import NamedTuple
 
 from colladaphy.findings import Severity
@@ -13,7 +14,7 @@ from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.arrays import NUMBER_ARRAYS, TOKEN_ARRAYS, params_of, sources_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.inputs import PRIMITIVES, inputs_of
+from colladaphy.meaning.inputs import PRIMITIVES, inputs_of, needed_by
 
 __all__ = ["CHECKS", "unfit_inputs"]
 
@@ -35,6 +36,7 @@ _MESH = {
     "TEXCOORD": _Need((1, 2, 3, 4)),
     "COLOR": _Need((3, 4)),
 }
+_STANDARD = ("VERTEX", "UV", *_MESH)
 _NEEDS: dict[str, dict[str, _Need]] = {
     **dict.fromkeys((*PRIMITIVES, "vertices"), _MESH),
     "joints": {"JOINT": _Need((1,), numbers=False), "INV_BIND_MATRIX": _Need((16,))},
@@ -112,6 +114,33 @@ def readable(context: Context) -> Iterator[Hit]:
                       (int(inputs.elements[row]),))  # fmt: skip
 
 
+def spellings(context: Context) -> Iterator[Hit]:
+    """Semantics that are misspelled; a program may have others of its own."""
+    inputs = inputs_of(context)
+    meant = {name: _meant(name) for name in set(inputs.semantics)}
+    for row, semantic in enumerate(inputs.semantics):
+        name, owner = meant[semantic], int(inputs.owners[row])
+        # That an element lacks what it needs is told there.
+        kind = context.name(owner)
+        if name is None or name in needed_by(kind) or kind not in (*PRIMITIVES, "vertices"):
+            continue
+        message = f"There is no semantic {semantic!r} in the standard, but there is {name!r}."
+        yield Hit(geometry_rules.SEMANTIC, int(inputs.elements[row]), message, (owner,), "semantic",
+                  hint=f"Write {name!r}.")  # fmt: skip
+
+
+def _meant(semantic: str) -> str | None:
+    """The semantic of the standard that one is a misspelling of; None for others."""
+    if semantic in _STANDARD:
+        return None
+    plain = semantic.upper().replace("_", "")
+    for name in _STANDARD:
+        if plain in (name, f"{name}S", f"{name}0"):
+            return name
+    close = get_close_matches(semantic, _STANDARD, 1, 0.85)
+    return close[0] if close else None
+
+
 def vertices(context: Context) -> Iterator[Hit]:
     """Vertices with more positions than normals, or the other way round."""
     inputs, table = inputs_of(context), sources_of(context)
@@ -150,4 +179,4 @@ def names(context: Context) -> Iterator[Hit]:
                 yield Hit(geometry_rules.PARAM_TWICE, element, message, (first,), "name")
 
 
-CHECKS = (semantics, readable, vertices, names)
+CHECKS = (semantics, spellings, readable, vertices, names)
