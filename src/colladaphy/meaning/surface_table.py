@@ -150,14 +150,13 @@ def _measured(faces: list[_Faces]) -> Iterator[tuple[int, Surface]]:
         return
     points, corners, home, first = _joined(faces)
     sizes = counted(np.concatenate([each.sizes for each in faces]))
-    ends = np.cumsum(sizes)
-    starts = ends - sizes
+    starts = np.cumsum(sizes) - sizes
     owner = home[corners[starts]]
     """(k,) the geometry of each face."""
-    closed, consistent = _edges(corners, starts, ends, home, len(first))
     triangles = _triangles(corners, starts, sizes)
     mine = np.repeat(owner, sizes - 2)
     """(m,) the geometry of each triangle."""
+    edges = _Edges(triangles, mine, len(first))
     least, most = np.minimum.reduceat(points, first), np.maximum.reduceat(points, first)
     extents = (most - least).max(axis=1)
     counts = np.diff(np.append(first, len(points)))
@@ -166,9 +165,8 @@ def _measured(faces: list[_Faces]) -> Iterator[tuple[int, Surface]]:
     begin = np.searchsorted(mine, np.arange(len(faces)))
     volumes = np.add.reduceat(np.sum(np.cross(one, two) * three, axis=1), begin) / 6.0
     reaches = np.maximum.reduceat(np.linalg.norm(points, axis=1), first)
-    whole = closed & consistent & (volumes > 0.0)
-    dents = _dents(points, triangles, mine, whole)
-    columns = (closed, consistent, volumes, extents, reaches, dents)
+    dents = edges.dents(points, edges.consistent & (volumes > 0.0))
+    columns = (edges.closed, edges.consistent, volumes, extents, reaches, dents)
     for each, *values in zip(faces, *(column.tolist() for column in columns), strict=True):
         yield each.geometry, Surface(*values)
 
@@ -194,25 +192,6 @@ def _joined(faces: list[_Faces]) -> tuple[Array, Array, Array, Array]:
     return points[new], number[corners], home, np.searchsorted(home, np.arange(len(faces)))
 
 
-def _edges(
-    corners: Array, starts: Array, ends: Array, home: Array, count: int
-) -> tuple[Array, Array]:
-    """Which geometries have all their edges twice, and which along both ways alike."""
-    after = np.append(corners[1:], 0)
-    after[ends - 1] = corners[starts]
-    real = corners != after
-    one, other = corners[real], after[real]
-    width = len(home)
-    forward, backward = np.sort(one * width + other), np.sort(other * width + one)
-    consistent, closed = np.ones(count, np.bool_), np.ones(count, np.bool_)
-    consistent[home[forward[forward != backward] // width]] = False
-    edges, counts = np.unique(
-        np.minimum(one, other) * width + np.maximum(one, other), return_counts=True
-    )
-    closed[home[edges[counts % 2 == 1] // width]] = False
-    return closed, consistent
-
-
 def _triangles(corners: Array, starts: Array, sizes: Array) -> Array:
     """The fans (m, 3) of faces."""
     faces = sizes - 2
@@ -224,29 +203,54 @@ def _triangles(corners: Array, starts: Array, sizes: Array) -> Array:
     )
 
 
-def _dents(points: Array, triangles: Array, mine: Array, wanted: Array) -> Array:
-    """How far surfaces (n,) that are closed and wound outwards are from convex across edges."""
-    made = np.zeros(len(wanted))
-    kept = wanted[mine]
-    triangles, mine = triangles[kept], mine[kept]
-    if not len(triangles):
+class _Edges:
+    """The edges of triangles, those across faces included, and those that run beside them.
+
+    What is across a face is there along both ways, so that it counts for nothing.
+    """
+
+    def __init__(self, triangles: Array, mine: Array, count: int) -> None:
+        first, second, third = triangles.T
+        self._from = np.concatenate([first, second, third])
+        self._to = np.concatenate([second, third, first])
+        self._opposite = np.concatenate([third, first, second])
+        self._triangles, self._mine = triangles, np.tile(mine, 3)
+        width = int(triangles.max()) + 1
+        forward, backward = self._from * width + self._to, self._to * width + self._from
+        self._beside = np.empty_like(forward)
+        self._beside[np.argsort(backward)] = np.argsort(forward)
+        self._even: Array = forward[self._beside] == backward
+        self.consistent = np.ones(count, np.bool_)
+        """Of which geometries as many run along one way as along the other."""
+        self.consistent[self._mine[~self._even]] = False
+        self.closed = self._closed(width)
+        """Of which geometries all edges are there twice, or as many times as that."""
+
+    def _closed(self, width: int) -> Array:
+        made = np.ones(len(self.consistent), np.bool_)
+        left = np.flatnonzero(~self.consistent[self._mine] & (self._from != self._to))
+        one, other = self._from[left], self._to[left]
+        _, first, counts = np.unique(
+            np.minimum(one, other) * width + np.maximum(one, other), return_index=True,
+            return_counts=True,
+        )  # fmt: skip
+        made[self._mine[left[first[counts % 2 == 1]]]] = False
         return made
-    one, two, three = (points[triangles[:, k]] for k in range(3))
-    normals = np.cross(two - one, three - one)
-    length = np.linalg.norm(normals, axis=1)
-    sizes = np.zeros(len(wanted))
-    np.maximum.at(sizes, mine, length)
-    # All edges of the triangles, those across faces included, and the corner opposite to each.
-    edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    opposite = np.concatenate([triangles[:, (k + 2) % 3] for k in range(3)])
-    owner = np.tile(np.arange(len(triangles)), 3)
-    width = len(points)
-    forward, backward = edges[:, 0] * width + edges[:, 1], edges[:, 1] * width + edges[:, 0]
-    # Of what is closed, each edge is there as often along both ways.
-    beside = np.empty_like(forward)
-    beside[np.argsort(backward, kind="stable")] = np.argsort(forward, kind="stable")
-    good = (forward[beside] == backward) & (length[owner] > 1e-12 * sizes[mine[owner]])
-    here, there = owner[good], opposite[beside[good]]
-    heights = np.sum(normals[here] * (points[there] - one[here]), axis=1) / length[here]
-    np.maximum.at(made, mine[here], heights)
-    return made
+
+    def dents(self, points: Array, wanted: Array) -> Array:
+        """How far surfaces (n,) that are closed and wound outwards are from convex across edges."""
+        made = np.zeros(len(wanted))
+        if not wanted.any():
+            return made
+        one, two, three = (points[self._triangles[:, k]] for k in range(3))
+        normals = np.cross(two - one, three - one)
+        length = np.linalg.norm(normals, axis=1)
+        sizes = np.zeros(len(wanted))
+        count = len(self._triangles)
+        np.maximum.at(sizes, self._mine[:count], length)
+        owner = np.tile(np.arange(count), 3)
+        good = self._even & wanted[self._mine] & (length[owner] > 1e-12 * sizes[self._mine])
+        here, there = owner[good], self._opposite[self._beside[good]]
+        heights = np.sum(normals[here] * (points[there] - one[here]), axis=1) / length[here]
+        np.maximum.at(made, self._mine[here], heights)
+        return made
