@@ -7,8 +7,8 @@ from io import BytesIO
 from pathlib import Path
 
 STOCK = ("xsdata parse", "xsdata serialize")
-STEPS = ("parse", "load", "store", *STOCK)
-KIND_STEPS = ("parse", "gate", "load", "store")
+STEPS = ("parse", "load", "store", "schema", "validate", *STOCK)
+KIND_STEPS = ("parse", "gate", "load", "schema", "validate", "store")
 
 
 def document(count: int, kind: str = "spheres") -> bytes:
@@ -39,8 +39,18 @@ def prepare(step: str, file: Path, kind: str = "spheres") -> Callable[[], object
 
         return lambda: is_valid_text(data)
 
+    if step == "schema":
+        from lxml import etree
+
+        from colladaphy.gate.schema import compiled
+
+        schema = compiled()
+        return lambda: schema.validate(etree.fromstring(data))
+
     import colladaphy
 
+    if step == "validate":
+        return lambda: colladaphy.validate(data)
     if step == "load":
         return lambda: colladaphy.read(data).load()
 
