@@ -18,7 +18,7 @@ from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.links import expected_text
 from colladaphy.meaning.references import ADDRESSES, PARAMETERS
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "lost_in"]
 
 _EXPECTED = {
     ("attachment_full", "joint"): ("joint", "instance_joint"),
@@ -52,9 +52,13 @@ def addresses(context: Context) -> Iterator[Hit]:
     for name, attribute in ADDRESSES:
         for reference in context.references(attribute, name):
             text = reference.text.strip()
-            if not text or _is_elsewhere(context, reference.element):
+            if not text:
+                message = f"The attribute {attribute!r} is empty, so it refers to nothing."
+                yield Hit(MISSING, reference.element, message, (), attribute, Severity.WARNING)
                 continue
-            lost = _lost(context, text)
+            if _is_elsewhere(context, reference.element):
+                continue
+            lost = lost_in(context, text)
             if lost is not None:
                 message = f"{text!r} leads nowhere: there is no {lost!r}."
                 yield Hit(MISSING, reference.element, message, (), attribute, Severity.WARNING)
@@ -93,7 +97,7 @@ def formulas(context: Context) -> Iterator[Hit]:
         ):
             address = text.strip()
             # A single word may be a function or a parameter of another program.
-            lost = _lost(context, address) if "/" in address else None
+            lost = lost_in(context, address) if "/" in address else None
             if lost is not None:
                 message = f"{address!r} leads nowhere: there is no {lost!r}."
                 yield Hit(MISSING, element, message, severity=Severity.WARNING)
@@ -104,7 +108,7 @@ def sidrefs(context: Context) -> Iterator[Hit]:
     rows = context.rows(TextRows, "SIDREF")
     assert rows.ordinals is not None
     for element, text in zip(rows.ordinals.tolist(), rows.value, strict=True):
-        lost = _lost(context, text.strip()) if text.strip() else None
+        lost = lost_in(context, text.strip()) if text.strip() else None
         if lost is not None:
             message = f"{text.strip()!r} leads nowhere: there is no {lost!r}."
             yield Hit(MISSING, element, message, severity=Severity.WARNING)
@@ -148,7 +152,7 @@ def _sids(context: Context) -> frozenset[str]:
     return frozenset(context.columns.with_attribute("sid")[1])
 
 
-def _lost(context: Context, text: str) -> str | None:
+def lost_in(context: Context, text: str) -> str | None:
     """The first name in an address that is there nowhere; None where there is none."""
     sids = context.shared(_sids)
     head, *rest = text.removeprefix("#").split("/")

@@ -80,7 +80,8 @@ def _interpolations(context: Context, element: int) -> Iterator[Hit]:
     if words is None:
         return
     array = int(table.arrays[source])
-    strange = sorted(set(words) - _KNOWN)
+    known = _KNOWN if context.name(element) == "sampler" else _KNOWN | {"NURBS"}
+    strange = sorted(set(words) - known)
     if strange:
         yield Hit(
             animation_rules.INTERPOLATION,
@@ -92,22 +93,25 @@ def _interpolations(context: Context, element: int) -> Iterator[Hit]:
         lacking = [name for name in ("IN_TANGENT", "OUT_TANGENT")
                    if inputs.named(element, name) < 0]  # fmt: skip
         if lacking:
-            message = f"{words[0]} needs {' and '.join(lacking)}, which the sampler has not."
+            name = context.name(element)
+            message = f"{words[0]} needs {' and '.join(lacking)}, which the <{name}> has not."
             yield Hit(animation_rules.INTERPOLATION, element, message, (array,))
+
+
+def splines(context: Context) -> Iterator[Hit]:
+    """Splines whose interpolations are not known, or lack their tangents."""
+    for element in context.ordinals("control_vertices").tolist():
+        yield from _interpolations(context, element)
 
 
 def channels(context: Context) -> Iterator[Hit]:
     """Channels whose targets are not there, or do not fit."""
     references = context.references("target", "channel")
     samplers = context.references("source", "channel")
-    seen: dict[str, int] = {}
+    clips = _Clips(context)
+    moved: dict[tuple[int, str | None, int], int] = {}
     for reference, source in zip(references, samplers, strict=True):
         element, text = reference.element, reference.text.strip()
-        if text in seen:
-            message = f"Another channel moves {text!r}, too."
-            yield Hit(animation_rules.CHANNEL_TWICE, element, message, (seen[text],), "target")
-            continue
-        seen[text] = element
         found = addressed(context, text)
         if isinstance(found, str):
             yield Hit(MISSING, element, found, (), "target", Severity.WARNING)
@@ -118,6 +122,18 @@ def channels(context: Context) -> Iterator[Hit]:
             message = f"A <{name}> is nothing that moves; name what is in it."
             yield Hit(WRONG_TYPE, element, message, (target,), "target", Severity.WARNING)
             continue
+        part = _number(name, member)
+        # The whole, and what is in it, cannot both be moved at a time.
+        mine, others = clips.of(element)
+        parts = (part, "") if part else (None,)
+        against = [(target, each, clip) for clip in others for each in parts]
+        other = next((moved[key] for key in against if key in moved), None)
+        for key in ((target, each, clip) for clip in mine for each in (part, None)):
+            moved.setdefault(key, element)
+        if other is not None:
+            message = f"Another channel moves {text!r}, too."
+            yield Hit(animation_rules.CHANNEL_TWICE, element, message, (other,), "target")
+            continue
         members, width = _MEMBERS.get(name, (None, 0))
         if member and members is not None and not _has(name, members, width, member):
             message = f"A <{name}> has no member {member!r}."
@@ -127,6 +143,36 @@ def channels(context: Context) -> Iterator[Hit]:
         sampler = context.target(source.text)
         if wanted and sampler >= 0:
             yield from _width(context, element, sampler, name + member, wanted)
+
+
+class _Clips:
+    """The clips in which animations are played; those that are in none are always played."""
+
+    _ALWAYS, _SOME = -1, -2
+
+    def __init__(self, context: Context) -> None:
+        self._context = context
+        self._by_animation: dict[int, set[int]] = {}
+        for reference in context.references("url", "instance_animation"):
+            animation = context.target(reference.text.strip())
+            clip = int(context.parent[reference.element])
+            self._by_animation.setdefault(animation, set()).add(clip)
+
+    def of(self, element: int) -> tuple[set[int], set[int]]:
+        """When a channel moves, and when others move that move at the same time."""
+        found: set[int] = set()
+        while element >= 0 and self._by_animation:
+            found |= self._by_animation.get(element, set())
+            element = int(self._context.parent[element])
+        if not found:
+            return {self._ALWAYS}, {self._ALWAYS, self._SOME}
+        return found | {self._SOME}, found | {self._ALWAYS}
+
+
+def _number(name: str, member: str) -> str:
+    """A member by its number, where it has one."""
+    order = {"rotate": ("X", "Y", "Z", "ANGLE"), "color": tuple("RGBA")}.get(name, tuple("XYZ"))
+    return f"({order.index(member[1:])})" if member[1:] in order else member
 
 
 def _has(name: str, members: frozenset[str], width: int, member: str) -> bool:
@@ -207,4 +253,4 @@ def clips(context: Context) -> Iterator[Hit]:
         yield Hit(animation_rules.CLIP_RANGE, int(rows.ordinals[row]), message, (), "end")
 
 
-CHECKS = (samplers, channels, clips)
+CHECKS = (samplers, splines, channels, clips)

@@ -14,6 +14,7 @@ from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.moments import faults_of_inertias, shown
 from colladaphy.meaning.shape_table import shapes_of
+from colladaphy_schema.rows import Rows
 
 __all__ = [
     "CHECKS",
@@ -36,6 +37,9 @@ def masses(context: Context) -> Iterator[Hit]:
         )
         yield Hit(physics_rules.MASS_VALUE, int(bodies.mass_elements[row]), message)
     zero = there & (bodies.masses == 0.0) & bodies.moves
+    if zero.any():  # that a plane moves is told
+        shapes = shapes_of(context)
+        zero[shapes.holders[context.children(shapes.rows, "plane", Rows).owner]] = False
     # An instance may give the mass that the body has not.
     for row in np.flatnonzero(zero).tolist():
         mine = bodies.instances(row)

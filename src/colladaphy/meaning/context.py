@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeVar
+from urllib.parse import unquote
 
 import numpy as np
 from numpy.typing import NDArray
@@ -272,23 +273,25 @@ class Context:
 
     def target(self, text: str | None) -> int:
         """The element of this document that a URI such as ``#id``, or an id, means; -1 for none."""
-        if not text:
-            return -1
-        return self.resource.ids.get(text.removeprefix("#"), -1)
+        return self.named(text.removeprefix("#")) if text else -1
+
+    def named(self, id: str) -> int:
+        """The element of an id as a reference spells it, which may escape signs; -1 for none."""
+        found = self.resource.ids.get(id, -1)
+        return self.resource.ids.get(unquote(id), -1) if found < 0 and "%" in id else found
 
     def targets(self, texts: Iterable[str | None]) -> Array:
         """The same for many."""
-        get = self.resource.ids.get
+        named = self.named
         return np.array(
-            [get(text[1:] if text[:1] == "#" else text, -1) if text else -1 for text in texts],
+            [named(text[1:] if text[:1] == "#" else text) if text else -1 for text in texts],
             np.int64,
         )
 
     def doubtful(self, rows: Rows, attribute: str, expected: tuple[str, ...]) -> list[Reference]:
         """The references of some rows but for those that lead to an expected element by ``#id``."""
         numbers, texts = self.columns.factorized(rows, attribute)
-        get = self.resource.ids.get
-        targets = [get(text[1:], -1) if text[:1] == "#" else -1 for text in texts]
+        targets = [self.named(text[1:]) if text[:1] == "#" else -1 for text in texts]
         good = np.append(self.is_named(np.array(targets, np.int64), *expected), True)
         assert rows.ordinals is not None
         bad = np.flatnonzero(~good[numbers])  # where there is no attribute, the number is -1

@@ -186,10 +186,15 @@ def joints(context: Context) -> Iterator[Hit]:
             continue
         told.add(array)
         if context.name(array) == "IDREF_array":
-            lost = [word for word in words if context.target(word) < 0]
+            named = [context.target(word) for word in words]
+            lost = [word for word, target in zip(words, named, strict=True) if target < 0]
+            strange = [target for target in named if target >= 0 and context.name(target) != "node"]
             if lost:
                 yield Hit(MISSING, array, f"There is no element of the id {listed(lost)}.",
                           severity=Severity.WARNING)  # fmt: skip
+            elif strange:
+                message = f"The joint {context.label(strange[0])} is not a <node>."
+                yield Hit(WRONG_TYPE, array, message, (strange[0],), severity=Severity.WARNING)
         elif context.name(array) == "Name_array":
             lost = [word for word in words if word not in sids]
             if lost:

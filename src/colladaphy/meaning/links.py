@@ -61,7 +61,8 @@ def reference_hits(
             severity = Severity.WARNING
         message = f"The {what} is empty, so it refers to nothing."
         return [Hit(MISSING, element, message, attribute=attribute, severity=severity)]
-    target = ids.get(text[1:]) if text[0] == "#" else None
+    number = context.named(text[1:]) if text[0] == "#" else -1
+    target = number if number >= 0 else None
     if target is None and text[0] != "#":
         target = ids.get(text)
         if target is not None and not addressed and columns.local_name(target) in expected:

@@ -107,15 +107,24 @@ def namespaces(context: Context) -> Iterator[Finding]:
 
 
 def strangers(tree: etree._ElementTree) -> Iterator[tuple[etree._Element, str]]:
-    """Elements of other namespaces in techniques of the profile, and what to say of them."""
+    """The first element of each other namespace in techniques of the profile, and what to say.
+
+    A prefix that is declared wrongly is one fault, however often it is used.
+    """
+    found: dict[str, list[etree._Element]] = {}
     for technique in tree.iter("{*}technique"):
         if technique.get("profile") != "pe":
             continue
         for child in technique.iterchildren(etree.Element):
-            name: Any = etree.QName(child)
+            namespace = etree.QName(child).namespace
             # Those of no namespace, or of COLLADA's, are the thesis's spelling.
-            if name.namespace not in (None, PE, COLLADA):
-                yield child, f"<{name.localname}> is of the namespace {name.namespace!r}."
+            if namespace not in (None, PE, COLLADA):
+                found.setdefault(str(namespace), []).append(child)
+    for namespace, children in found.items():
+        message = f"<{etree.QName(children[0]).localname}> is of the namespace {namespace!r}."
+        if len(children) > 1:
+            message += f" {len(children) - 1} more elements are so."
+        yield children[0], message
 
 
 def numbers(context: Context) -> Iterator[Hit]:
