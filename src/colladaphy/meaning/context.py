@@ -282,17 +282,19 @@ class Context:
 
     def targets(self, texts: Iterable[str | None]) -> Array:
         """The same for many."""
-        named = self.named
-        return np.array(
-            [named(text[1:] if text[:1] == "#" else text) if text else -1 for text in texts],
-            np.int64,
-        )
+        listed, get = list(texts), self.resource.ids.get
+        found = [get(text[1:] if text[:1] == "#" else text, -1) if text else -1 for text in listed]
+        if -1 in found:  # few are escaped, and nearly all are found
+            found = [
+                self.target(text) if at < 0 else at for at, text in zip(found, listed, strict=True)
+            ]
+        return np.array(found, np.int64)
 
     def doubtful(self, rows: Rows, attribute: str, expected: tuple[str, ...]) -> list[Reference]:
         """The references of some rows but for those that lead to an expected element by ``#id``."""
         numbers, texts = self.columns.factorized(rows, attribute)
-        targets = [self.named(text[1:]) if text[:1] == "#" else -1 for text in texts]
-        good = np.append(self.is_named(np.array(targets, np.int64), *expected), True)
+        targets = self.targets(text if text[:1] == "#" else None for text in texts)
+        good = np.append(self.is_named(targets, *expected), True)
         assert rows.ordinals is not None
         bad = np.flatnonzero(~good[numbers])  # where there is no attribute, the number is -1
         return [
