@@ -13,7 +13,7 @@ import numpy as np
 
 from colladaphy.findings import Severity
 from colladaphy.links.rules import MISSING, WRONG_TYPE
-from colladaphy.meaning.context import Context, TextRows
+from colladaphy.meaning.context import Context, NamedRows, TextRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.links import expected_text
 from colladaphy.meaning.references import ADDRESSES, PARAMETERS
@@ -121,6 +121,32 @@ def sidrefs(context: Context) -> Iterator[Hit]:
             yield Hit(WRONG_TYPE, element, message, (target,), severity=Severity.WARNING)
 
 
+def axes(context: Context) -> Iterator[Hit]:
+    """Parameters that are bound for axes, and hold the address of something else."""
+    rows = context.rows(TextRows, "param")
+    assert rows.ordinals is not None
+    mine = rows.ordinals[np.flatnonzero(context.is_within(rows.ordinals, "axis"))]
+    names = [text.strip() for text in context.at(TextRows, mine).value]
+    scenes = context.ancestor(mine, "instance_kinematics_scene").tolist()
+    wanted = set(zip(scenes, names, strict=True))
+    if not wanted:
+        return
+    held = context.rows(NamedRows, "newparam")
+    assert held.ordinals is not None
+    addresses = context.children(held, "SIDREF", TextRows)
+    assert addresses.ordinals is not None
+    above, sids = context.parent[held.ordinals].tolist(), list(held.sid)
+    for element, owner, text in zip(
+        addresses.ordinals.tolist(), addresses.owner.tolist(), addresses.value, strict=True
+    ):
+        if (above[owner], sids[owner]) not in wanted:
+            continue
+        target = _through(context, text.strip())
+        if target >= 0 and context.name(target) not in _BOUND["axis"]:
+            message = f"{text.strip()!r} is a <{context.name(target)}>, not an axis."
+            yield Hit(WRONG_TYPE, element, message, (target,), severity=Severity.WARNING)
+
+
 def parameters(context: Context) -> Iterator[Hit]:
     """Parameters of kinematics that nobody declares."""
     rows = context.rows(TextRows, "param")
@@ -182,4 +208,4 @@ def _through(context: Context, text: str) -> int:
     return target
 
 
-CHECKS = (addresses, formulas, sidrefs, parameters)
+CHECKS = (addresses, formulas, sidrefs, axes, parameters)

@@ -13,7 +13,7 @@ from colladaphy.meaning.context import Context, FloatRows, TextRows
 from colladaphy.meaning.hits import Hit
 from colladaphy_schema.rows import Column, Floats, Rows
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "is_unit_doubtful"]
 
 
 _SIZES = {
@@ -54,6 +54,11 @@ def units(context: Context) -> Iterator[Hit]:
         if known is not None and abs(size - known) > _TOLERANCE * known:
             message = f"The unit is named {name!r}, which is {known} metres, but meter is {size}."
             yield Hit(asset_rules.UNIT_NAME, element, message, (), "name")
+
+
+def is_unit_doubtful(context: Context) -> bool:
+    """Whether the document's unit of length is told to be wrong, so that nothing follows of it."""
+    return any(int(context.parent[context.parent[hit.element]]) == 0 for hit in units(context))
 
 
 def dates(context: Context) -> Iterator[Hit]:

@@ -9,6 +9,7 @@ from colladaphy.meaning import link_rules
 from colladaphy.meaning.context import Context, NamedRows
 from colladaphy.meaning.hits import Hit, listed
 from colladaphy.meaning.inputs import PRIMITIVES, inputs_of
+from colladaphy.meaning.semantics import meant_by
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS", "geometry_of"]
@@ -63,6 +64,8 @@ def _vertex_inputs(context: Context, material: int, primitives: list[int]) -> It
             if inputs.semantics[row] == "VERTEX" and inputs.targets[row] >= 0:
                 there.update((inputs.semantics[inner], -1)
                              for inner in inputs.of(int(inputs.targets[row])))  # fmt: skip
+    # What is misspelled is told at the input.
+    there |= {(meant, each) for semantic, each in there if (meant := meant_by(semantic))}
     semantics = {semantic for semantic, _ in there}
     for element in context.shared(_vertex_bindings).get(material, ()):
         semantic = context.columns.attribute_of(element, "input_semantic") or ""

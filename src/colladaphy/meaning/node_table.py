@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.meaning.context import Context, FloatRows
+from colladaphy.meaning.radians import written_as_radians
 from colladaphy.meaning.scene import degenerate_matrices
 from colladaphy_schema.rows import Rows
 
@@ -123,6 +124,7 @@ def _transforms(context: Context) -> tuple[dict[int, list[int]], set[int]]:
             faulty = faulty | ~values.all(axis=1)
         elif name == "rotate":
             faulty = faulty | (~values[:, :3].any(axis=1) & (values[:, 3] != 0.0))
+            faulty = faulty | written_as_radians(values[:, 3])
         elif name == "skew":
             odd = values[:, 0] != 0.0
         odd &= ~faulty

@@ -16,7 +16,7 @@ from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.inputs import PRIMITIVES, inputs_of, needed_by
 
-__all__ = ["CHECKS", "unfit_inputs"]
+__all__ = ["CHECKS", "meant_by", "unfit_inputs"]
 
 
 class _Need(NamedTuple):
@@ -117,7 +117,7 @@ def readable(context: Context) -> Iterator[Hit]:
 def spellings(context: Context) -> Iterator[Hit]:
     """Semantics that are misspelled; a program may have others of its own."""
     inputs = inputs_of(context)
-    meant = {name: _meant(name) for name in set(inputs.semantics)}
+    meant = {name: meant_by(name) for name in set(inputs.semantics)}
     for row, semantic in enumerate(inputs.semantics):
         name, owner = meant[semantic], int(inputs.owners[row])
         # That an element lacks what it needs is told there.
@@ -129,14 +129,17 @@ def spellings(context: Context) -> Iterator[Hit]:
                   hint=f"Write {name!r}.")  # fmt: skip
 
 
-def _meant(semantic: str) -> str | None:
+def meant_by(semantic: str) -> str | None:
     """The semantic of the standard that one is a misspelling of; None for others."""
     if semantic in _STANDARD:
         return None
     plain = semantic.upper().replace("_", "")
     for name in _STANDARD:
-        if plain in (name, f"{name}S", f"{name}0"):
+        if plain in (name, f"{name}S"):
             return name
+    # What only adds to one is another: COLOR2, POSITIONT.
+    if semantic.startswith(_STANDARD):
+        return None
     close = get_close_matches(semantic, _STANDARD, 1, 0.85)
     return close[0] if close else None
 

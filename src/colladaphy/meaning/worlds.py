@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.meaning import link_rules, physics_rules
+from colladaphy.meaning.asset import is_unit_doubtful
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy_schema.rows import Rows
@@ -45,6 +46,8 @@ def scenes(context: Context) -> Iterator[Hit]:
         elif len(along) == 1 and vector[up] > 0.0 and abs(strength * size - _EARTH) < 0.1:
             message = f"The gravity is {shown}, and {context.resource.up_axis} is up."
             yield Hit(physics_rules.GRAVITY_UP, element, message)
+        elif is_unit_doubtful(context):
+            continue
         elif (other := _other_unit(strength, size)) is not None:
             message = (
                 f"The gravity is {shown}, as where the unit is {other}, but it is {size:g} "
