@@ -8,7 +8,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from colladaphy.links.poses import Poses, quaternions_of_turns, unit_quaternions
+from colladaphy.links.poses import Poses, quaternions_of_turns, rotate_vectors, unit_quaternions
 from colladaphy.links.steps import matrix_of, product, rigid_parts
 
 _calm = st.floats(-100, 100)
@@ -105,3 +105,26 @@ def test_the_rigid_part_of_a_mirror_is_a_rotation() -> None:
     made, exact = rigid_parts(np.diag([1.0, 1.0, -1.0, 1.0])[None])
     assert not exact[0]
     assert np.isclose(np.linalg.det(matrix_of(made)[0]), 1.0)
+
+
+_whole = st.integers(-8, 8)
+
+
+@given(
+    st.lists(
+        st.tuples(
+            st.tuples(_whole, _whole, _whole, _whole).filter(any), st.tuples(_whole, _whole, _whole)
+        ),
+        min_size=1, max_size=4,
+    )
+)  # fmt: skip
+def test_the_largest_vectors_are_turned_as_others_are(rows: list[Any]) -> None:
+    turns = unit_quaternions(np.array([turn for turn, _ in rows], float))
+    vectors = np.array([vector for _, vector in rows]) / 8.0
+    large = 2.0**1023
+    assert np.array_equal(
+        rotate_vectors(turns, vectors * large), rotate_vectors(turns, vectors) * large
+    )
+    mixed = np.concatenate([vectors, vectors * large])
+    again = rotate_vectors(np.concatenate([turns, turns]), mixed)
+    assert np.array_equal(again[: len(rows)], rotate_vectors(turns, vectors))

@@ -31,6 +31,8 @@ Bools = NDArray[np.bool_]
 Floats = NDArray[np.float64]
 
 DEGREE: Final = math.pi / 180.0
+_LARGE: Final = 2.0**1020
+_SCALE: Final = 16.0
 NO_TURN: Final = (1.0, 0.0, 0.0, 0.0)
 
 
@@ -182,6 +184,17 @@ def quaternion_product(a: Floats, b: Floats) -> Floats:
 
 def rotate_vectors(q: Floats, v: Floats) -> Floats:
     """Vectors (n, 3) turned by unit quaternions (n, 4)."""
+    if not len(v) or not float(np.abs(v).max()) > _LARGE:
+        return _turned(q, v)
+    with np.errstate(over="ignore", invalid="ignore"):
+        made = _turned(q, v)
+        # On the way there are numbers twice as large as what comes out.
+        lost = np.flatnonzero(~np.isfinite(made).all(axis=1) & np.isfinite(v).all(axis=1))
+        made[lost] = _turned(q[lost], v[lost] / _SCALE) * _SCALE
+    return made
+
+
+def _turned(q: Floats, v: Floats) -> Floats:
     w, x, y, z = q.T
     vx, vy, vz = v.T
     tx = 2.0 * (y * vz - z * vy)

@@ -189,19 +189,22 @@ def _axes(world: World, joint: Joint, *, backward: bool) -> list[_Axis]:
 def _values(joint: Joint) -> tuple[Array, Array]:
     """How far frame 2 is moved along, and turned about, the axes of frame 1: x, then y, then z."""
     ends = []
-    for body, frame in ((joint.body1, joint.frame1), (joint.body2, joint.frame2)):
-        outer = Poses.none(1)
-        if body is not None:
-            outer = Poses.of(1, body.position[None], rotations.normalize(body.orientation)[None])
-        ends.append(outer.then(_frame(frame)))
-    apart = ends[0].inverse().then(ends[1])
+    with np.errstate(over="ignore", invalid="ignore"):
+        for body, frame in ((joint.body1, joint.frame1), (joint.body2, joint.frame2)):
+            outer = Poses.none(1)
+            if body is not None:
+                turn = rotations.normalize(body.orientation)
+                outer = Poses.of(1, body.position[None], turn[None])
+            ends.append(outer.then(_frame(frame)))
+        apart = ends[0].inverse().then(ends[1])
     matrix = rotations.to_matrix(apart.orientations[0])
     angles = (
         math.atan2(-matrix[1, 2], matrix[2, 2]),
         math.asin(max(-1.0, min(1.0, float(matrix[0, 2])))),
         math.atan2(-matrix[0, 1], matrix[0, 0]),
     )
-    return apart.positions[0], np.degrees(angles)
+    # What is farther apart than numbers go is as far as they go.
+    return np.nan_to_num(apart.positions[0]), np.degrees(angles)
 
 
 # --- rows
