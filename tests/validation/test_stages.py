@@ -188,6 +188,19 @@ def test_references_to_other_files(tmp_path: Path) -> None:
     assert finding.code == "io-reference-refused" and finding.line
 
 
+def test_the_file_of_an_image_is_no_folder(tmp_path: Path) -> None:
+    library = (
+        b"<library_images><image><init_from><ref>wood</ref></init_from></image></library_images>"
+    )
+    path = tmp_path / "a.dae"
+    path.write_bytes(VALID.replace(b"</asset>", b"</asset>" + library, 1))
+    (tmp_path / "wood").mkdir()
+    assert [finding.code for finding in colladaphy.validate(path)] == ["link-image-missing"]
+    (tmp_path / "wood").rmdir()
+    (tmp_path / "wood").touch()
+    assert not list(colladaphy.validate(path))
+
+
 def test_documents_that_references_lead_to_must_be_loadable(tmp_path: Path) -> None:
     path, other = tmp_path / "main.dae", tmp_path / "other.dae"
     path.write_bytes(VALID.replace(b'url="#model"', b'url="other.dae#model"'))

@@ -39,7 +39,9 @@ def _in_folder(origin: FolderOrigin, url: str) -> str | None:
         real = (origin.folder / name).resolve(strict=True)
     except (OSError, RuntimeError, ValueError):
         return "missing"
-    return None if real.is_relative_to(root) else "outside"
+    if not real.is_relative_to(root):
+        return "outside"
+    return None if real.is_file() else "missing"
 
 
 def _in_archive(origin: ArchiveOrigin, url: str) -> str | None:
