@@ -73,9 +73,7 @@ class Constraints:
 
 def frames_of(context: Context, rows: AttachmentRows) -> Poses:
     """Where what has translates and rotates stands in what is around it, a row each."""
-    for name, steps, width in (("translate", rows.translate, 3), ("rotate", rows.rotate, 4)):
-        assert steps.ordinals is not None
-        steps.value = context.table(name, steps.ordinals, width)
+    context.fill(rows)
     return poses_of_steps(Steps.of(rows), exact=False)
 
 

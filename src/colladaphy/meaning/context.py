@@ -94,6 +94,7 @@ class Context:
         self._rows: dict[tuple[type[Rows], tuple[str, ...]], Rows] = {}
         self._firsts: dict[tuple[str, ...], dict[int, int]] = {}
         self._shared: dict[Callable[[Context], Any], Any] = {}
+        self._links: dict[tuple[int, str], tuple[Rows, tuple[Array, list[str], Array]]] = {}
 
     @cached_property
     def columns(self) -> Document:
@@ -113,7 +114,9 @@ class Context:
     @cached_property
     def placement(self) -> Placement:
         """Where nodes stand."""
-        return Placement(self.pool, _Quiet(None))
+        made = Placement(self.pool, _Quiet(None))
+        self.fill(made.nodes.parts[0])
+        return made
 
     def shared(self, make: Callable[[Context], T]) -> T:
         """What a function makes of the document, made once."""
@@ -188,6 +191,12 @@ class Context:
         every = self.rows(FloatRows, name)
         assert every.ordinals is not None
         return every.value, np.searchsorted(every.ordinals, ordinals)
+
+    def fill(self, placed: Any) -> None:
+        """Give rows with translate and rotate the numbers of these, where they were read."""
+        for name, width in (("translate", 3), ("rotate", 4)):
+            steps = getattr(placed, name)
+            steps.value = self.table(name, steps.ordinals, width)
 
     def table(self, name: str, ordinals: Array, width: int) -> Array:
         """The same as a table (n, width), where the schema wants as many."""
@@ -290,13 +299,24 @@ class Context:
             ]
         return np.array(found, np.int64)
 
+    def links(self, rows: Rows, attribute: str) -> tuple[Array, list[str], Array]:
+        """A reference of some rows: numbers (n,), the different texts, and what these lead to.
+
+        -1 is the number of what has no such attribute, and the target of what leads nowhere.
+        """
+        key = (id(rows), attribute)
+        if key not in self._links:
+            numbers, texts = self.columns.factorized(rows, attribute)
+            self._links[key] = rows, (numbers, texts, self.targets(texts))
+        return self._links[key][1]
+
     def doubtful(self, rows: Rows, attribute: str, expected: tuple[str, ...]) -> list[Reference]:
         """The references of some rows but for those that lead to an expected element by ``#id``."""
-        numbers, texts = self.columns.factorized(rows, attribute)
-        targets = self.targets(text if text[:1] == "#" else None for text in texts)
-        good = np.append(self.is_named(targets, *expected), True)
+        numbers, texts, targets = self.links(rows, attribute)
+        good = self.is_named(targets, *expected)
+        good &= np.array([text[:1] == "#" for text in texts], np.bool_)
         assert rows.ordinals is not None
-        bad = np.flatnonzero(~good[numbers])  # where there is no attribute, the number is -1
+        bad = np.flatnonzero(~np.append(good, True)[numbers])
         return [
             Reference(element, texts[number])
             for element, number in zip(

@@ -26,7 +26,8 @@ class Nodes:
         self.elements = context.ordinals("node")
         rows = context.rows(Rows, "instance_rigid_body")
         assert rows.ordinals is not None
-        targets = context.targets(context.texts(rows, "target"))
+        numbers, _, found = context.links(rows, "target")
+        targets = np.append(found, -1)[numbers]
         targets[~context.is_named(targets, "node")] = -1
         self.targets = dict(zip(rows.ordinals.tolist(), targets.tolist(), strict=True))
         """The nodes that instances of bodies move, by the instance; -1 for none."""

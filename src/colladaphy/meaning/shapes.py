@@ -212,8 +212,8 @@ def _profiled(context: Context) -> Array:
     if len(materials):
         users = context.rows(Rows, "instance_physics_material")
         assert users.ordinals is not None
-        numbers, texts = context.columns.factorized(users, "url")
-        ours = np.append(np.isin(context.targets(texts), materials), False)
+        numbers, _, targets = context.links(users, "url")
+        ours = np.append(np.isin(targets, materials), False)
         mine = users.ordinals[ours[numbers]]
         inline = materials[context.is_within(materials, "shape", "technique_common")]
         holders = context.ancestor(
