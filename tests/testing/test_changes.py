@@ -134,6 +134,19 @@ def test_each_edit_changes_the_file(kind: str) -> None:
     assert changed >= 1
 
 
+def test_other_ids_are_followed_by_kinematics() -> None:
+    world = World()
+    one = world.create_sphere(1, (0, 0, 0), 1, "iron")
+    two = world.create_box(2, (3, 0, 0), (1, 1, 1), "iron")
+    world.attach_hinge_joint(one, two, axis=(0, 0, 1))
+    target = io.BytesIO()
+    colladaphy.write(world, target, options=colladaphy.WriteOptions(kinematics=True))
+    assert b"<SIDREF>" in target.getvalue()
+    for again in drawn(equivalents(target.getvalue(), kinds=["ids"], most=1), 3):
+        assert list(colladaphy.validate(again)) == []
+        assert differences(load(target.getvalue()), load(again)) == []
+
+
 def test_other_ids_leave_the_numbers_of_materials() -> None:
     world = World()
     values = dict.fromkeys(VALUES, 1.0) | {"poisson_ratio": 0.3}

@@ -31,6 +31,7 @@ _WITH_TECHNIQUE = (
 )  # fmt: skip
 _REFERRING = (
     "url", "target", "source", "parent", "convex_hull_of", "rigid_body", "constraint", "body",
+    "joint", "axis", "link", "node",
 )  # fmt: skip
 _comments = st.sampled_from([" a note ", "", "<mass>7</mass>", " 1 2 3 "])
 _foreign = st.sampled_from(
@@ -147,13 +148,19 @@ def _rename(draw: st.DrawFn, root: Element) -> None:
         if element.get("id") in renamed:
             element.set("id", renamed[element.get("id", "")])
         for name in map(str, names):
-            value = element.get(name, "")
-            if value.startswith("#"):
-                first, slash, rest = value[1:].partition("/")
-                element.set(name, f"#{renamed.get(first, first)}{slash}{rest}")
-            elif "/" in value and value.partition("/")[0] in renamed:
-                first, _, rest = value.partition("/")
-                element.set(name, f"{renamed[first]}/{rest}")
+            if value := element.get(name):
+                element.set(name, _readdressed(value, renamed, alone=name == "node"))
+        if element.tag == f"{C}SIDREF" and element.text:
+            element.text = _readdressed(element.text.strip(), renamed, alone=True)
+
+
+def _readdressed(text: str, renamed: dict[str, str], *, alone: bool) -> str:
+    """The same reference after ids were renamed: `#id`, `id/sid`, or an id `alone`."""
+    first, slash, rest = text.removeprefix("#").partition("/")
+    if not slash and text == first and not alone:
+        return text  # a scoped id
+    sign = "#" if text.startswith("#") else ""
+    return f"{sign}{renamed.get(first, first)}{slash}{rest}"
 
 
 _NUMBER = re.compile(r"Material\d+")
