@@ -30,8 +30,9 @@ BROKEN_RULES: tuple[str, ...] = tuple(
 """The codes of the rules that `broken_documents` breaks: all errors that a document can have, and
 what is worth a warning in a document that is valid otherwise."""
 
-# What stays as it is does not hide a fault, nor bring in another.
-_AROUND = {kind: REWRITES[kind] for kind in ("comments", "extras", "models-unused")}
+# What stays as it is does not hide a fault, nor bring in another. (A copy of a model that is not
+# instanced lacks what its instances say.)
+_AROUND = {kind: REWRITES[kind] for kind in ("comments", "extras")}
 
 
 @dataclass(frozen=True, slots=True)
