@@ -34,7 +34,8 @@ def same(one: Array, other: Array) -> Array:
     scale = reach(np.where(large, 0.0, np.maximum(*sizes)))
     close = (np.abs(one - other) <= DIGITS * scale[:, None]) & np.isfinite(one) & np.isfinite(other)
     close |= large | (one == other)
-    return np.asarray(close.all(axis=1) | np.isnan(one + other).any(axis=1) | (scale < _TINY))
+    told = np.isnan(one) | np.isnan(other)
+    return np.asarray(close.all(axis=1) | told.any(axis=1) | (scale < _TINY))
 
 
 def are_numbers(*values: Array) -> Array:
