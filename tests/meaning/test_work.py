@@ -15,7 +15,6 @@ ROOM = f"{colladaphy.__name__}/meaning/"
 FEW = 50
 MORE = {
     "a material each": 80, "a model each": 110, "a fixed joint each": 180, "a hinge each": 180,
-    "a mesh each": 600,
 }  # fmt: skip
 """Lines a body where texts, references or inputs are looked at one by one; what is done for whole
 arrays takes none."""

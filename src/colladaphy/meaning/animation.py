@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from colladaphy.findings import Severity
 from colladaphy.links.rules import MISSING, WRONG_TYPE
 from colladaphy.meaning import animation_rules, link_rules
-from colladaphy.meaning.arrays import sources_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit, listed
 from colladaphy.meaning.inputs import inputs_of
+from colladaphy.meaning.source_table import sources_of
 from colladaphy_schema.rows import Column, Masked, Rows
 
 __all__ = ["CHECKS", "addressed"]
@@ -51,7 +51,7 @@ def samplers(context: Context) -> Iterator[Hit]:
         counts: dict[str, int | None] = {}
         for row in inputs.of(element):
             if inputs.sources[row] >= 0:
-                counts.setdefault(inputs.semantics[row], table.count(int(inputs.sources[row])))
+                counts.setdefault(inputs.semantic(row), table.count(int(inputs.sources[row])))
         known = {count for count in counts.values() if count is not None}
         if len(known) > 1:
             wanted = max(known)

@@ -224,6 +224,14 @@ class Context:
         return kind(len(ordinals), owners=len(ordinals), origin=self.columns,
                     ordinals=np.asarray(ordinals, np.int32))  # fmt: skip
 
+    def numbered(self, elements: Array, wanted: Array) -> Array:
+        """Where some elements (m,) are among others (n,), of which the first counts; -1 if not."""
+        scratch = self.columns.index.scratch
+        scratch[elements[::-1]] = np.arange(len(elements) - 1, -1, -1)
+        found = np.where(wanted >= 0, scratch[wanted], -1)
+        scratch[elements] = -1
+        return found
+
     def is_within(self, ordinals: Array, *names: str) -> Array:
         """Which elements (n,) are children of elements of some names."""
         codes = [code for name in names for code in self.columns.codes_of(c(name))]
@@ -309,6 +317,16 @@ class Context:
             numbers, texts = self.columns.factorized(rows, attribute)
             self._links[key] = rows, (numbers, texts, self.targets(texts))
         return self._links[key][1]
+
+    def led(self, name: str, attribute: str, ordinals: Array | None = None) -> Array:
+        """What a reference of all elements of a name, or of some, leads to (n,); -1 for nothing."""
+        every = self.rows(Rows, name)
+        numbers, _, targets = self.links(every, attribute)
+        found: Array = np.append(targets, -1)[numbers]
+        if ordinals is None:
+            return found
+        assert every.ordinals is not None
+        return found[np.searchsorted(every.ordinals, ordinals)]
 
     def doubtful(self, rows: Rows, attribute: str, expected: tuple[str, ...]) -> list[Reference]:
         """The references of some rows but for those that lead to an expected element by ``#id``."""

@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 from colladaphy.findings import Severity
 from colladaphy.links.rules import MISSING, WRONG_TYPE
 from colladaphy.meaning import animation_rules
-from colladaphy.meaning.arrays import CountRows, sources_of
+from colladaphy.meaning.array_table import CountRows
 from colladaphy.meaning.context import Context, IntegerRows, NamedRows, TextRows
 from colladaphy.meaning.hits import Hit, listed
 from colladaphy.meaning.inputs import inputs_of
 from colladaphy.meaning.materials import geometry_of
 from colladaphy.meaning.scene import degenerate_matrices
 from colladaphy.meaning.semantics import unfit_inputs
+from colladaphy.meaning.source_table import sources_of
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
@@ -68,7 +69,7 @@ def weights(context: Context) -> Iterator[Hit]:
         for each in mine:
             limit = inputs.count(each)
             used = v[1][int(inputs.offsets[each]) :: stride]
-            least = 0 if inputs.semantics[each] == "WEIGHT" else -1
+            least = 0 if inputs.semantic(each) == "WEIGHT" else -1
             if limit is None or not len(used):
                 continue
             if int(used.max()) >= limit or int(used.min()) < least:
@@ -78,7 +79,7 @@ def weights(context: Context) -> Iterator[Hit]:
                     break
                 worst = int(used.max()) if int(used.max()) >= limit else int(used.min())
                 message = (
-                    f"The index {worst} of {inputs.semantics[each]} is not one of {limit} values."
+                    f"The index {worst} of {inputs.semantic(each)} is not one of {limit} values."
                 )
                 yield Hit(animation_rules.SKIN_INDEX, v[0], message, (element,))
                 faulty = True

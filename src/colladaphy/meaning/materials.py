@@ -60,9 +60,9 @@ def _vertex_inputs(context: Context, material: int, primitives: list[int]) -> It
     there: set[tuple[str, int]] = set()
     for primitive in primitives:
         for row in inputs.of(primitive):
-            there.add((inputs.semantics[row], int(inputs.sets[row])))
-            if inputs.semantics[row] == "VERTEX" and inputs.targets[row] >= 0:
-                there.update((inputs.semantics[inner], -1)
+            there.add((inputs.semantic(row), int(inputs.sets[row])))
+            if inputs.semantic(row) == "VERTEX" and inputs.targets[row] >= 0:
+                there.update((inputs.semantic(inner), -1)
                              for inner in inputs.of(int(inputs.targets[row])))  # fmt: skip
     # What is misspelled is told at the input.
     there |= {(meant, each) for semantic, each in there if (meant := meant_by(semantic))}

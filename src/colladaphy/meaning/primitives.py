@@ -4,77 +4,27 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.spans import places_of
 from colladaphy.meaning import geometry_rules
-from colladaphy.meaning.arrays import CountRows
-from colladaphy.meaning.context import Context, IntegerRows
+from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.inputs import PRIMITIVES, inputs_of
+from colladaphy.meaning.inputs import inputs_of
+from colladaphy.meaning.primitive_table import Group, Primitives, primitives_of
 from colladaphy.meaning.semantics import unfit_inputs
-from colladaphy_schema.rows import Lists
 
-__all__ = ["CHECKS", "groups_of", "miscounted"]
+__all__ = ["CHECKS", "miscounted"]
 
 Array = NDArray[Any]
 
 
 _PER_FACE = {"lines": 2, "triangles": 3}
 _LEAST = {"linestrips": 2, "polygons": 3, "trifans": 3, "tristrips": 3}
-
-
-@dataclass(slots=True)
-class _Group:
-    """A primitive with its lists of indices."""
-
-    element: int
-    name: str
-    count: int
-    stride: int
-    parts: list[tuple[int, Array]]
-    """Elements p, or h, and their indices."""
-    vcount: tuple[int, Array] | None
-
-
-def _groups(context: Context) -> list[_Group]:
-    inputs = inputs_of(context)
-    made: dict[int, _Group] = {}
-    for name in PRIMITIVES:
-        rows = context.rows(CountRows, name)
-        assert rows.ordinals is not None
-        for element, count in zip(rows.ordinals.tolist(), rows.count.values.tolist(), strict=True):
-            offsets = [int(inputs.offsets[row]) for row in inputs.of(element)]
-            made[element] = _Group(element, name, count, max(offsets, default=0) + 1, [], None)
-    for tag in ("p", "h"):
-        lists = context.rows(IntegerRows, tag)
-        if not len(lists):
-            continue
-        assert lists.ordinals is not None
-        around = context.ancestor(lists.ordinals, *PRIMITIVES)
-        values: Lists = lists.value
-        for place, (element, owner) in enumerate(
-            zip(lists.ordinals.tolist(), around.tolist(), strict=True)
-        ):
-            if owner in made:
-                made[owner].parts.append((element, values[place]))
-    sizes = context.rows(IntegerRows, "vcount")
-    if len(sizes):
-        assert sizes.ordinals is not None
-        values = sizes.value
-        for place, element in enumerate(sizes.ordinals.tolist()):
-            owner = int(context.parent[element])
-            if owner in made:
-                made[owner].vcount = (element, values[place])
-    return list(made.values())
-
-
-def groups_of(context: Context) -> list[_Group]:
-    """The primitives of a document."""
-    return context.shared(_groups)
 
 
 def counts(context: Context) -> Iterator[Hit]:
@@ -84,16 +34,16 @@ def counts(context: Context) -> Iterator[Hit]:
 
 
 def miscounted(context: Context) -> frozenset[int]:
-    """The primitives of which something of this kind is told."""
+    """The rows of primitives of which something of this kind is told."""
     return frozenset(context.shared(_counted))
 
 
 def _counted(context: Context) -> dict[int, list[Hit]]:
-    inputs = inputs_of(context)
+    table = primitives_of(context)
     found: dict[int, list[Hit]] = {}
-    for group in groups_of(context):
-        if not inputs.of(group.element):
-            continue  # said by the rule of inputs
+    # Without inputs nothing can be counted, and that is said by their rule.
+    for row in np.flatnonzero(_doubtful(context, table) & table.has_inputs).tolist():
+        group = table.group(row)
         if group.name == "polylist":
             hits = list(_polylist(group))
         elif group.name in _PER_FACE:
@@ -101,11 +51,41 @@ def _counted(context: Context) -> dict[int, list[Hit]]:
         else:
             hits = list(_lists(context, group))
         if hits:
-            found[group.element] = hits
+            found[row] = hits
     return found
 
 
-def _faces(group: _Group) -> Iterator[Hit]:
+def _doubtful(context: Context, table: Primitives) -> Array:
+    """Which primitives (n,) do not have what their counts and corners say."""
+    lists = np.flatnonzero(table.list_owners >= 0)
+    owners, lengths = table.list_owners[lists], table.list_lengths[lists]
+    totals = table.summed(lists, lengths)
+    wanted = totals.copy()
+    for name, corners in _PER_FACE.items():
+        rows = table.kind(name)
+        wanted[rows] = (table.counts * table.strides)[rows] * corners
+    rows = np.flatnonzero(table.kind("polylist"))
+    found: Array = wanted != totals
+    found[rows] = table.vcounts[rows] < 0
+    rows = rows[~found[rows]]
+    sizes, counts = table.sizes_of(rows)
+    owner = np.repeat(np.arange(len(rows)), counts)
+    needed = np.bincount(owner, sizes, minlength=len(rows)) * table.strides[rows]
+    found[rows] |= (counts != table.counts[rows]) | (needed != totals[rows])
+    found[rows[owner[sizes < 3]]] = True
+    # Lists of corners, be they lines, fans or polygons.
+    several = table.kind(*_LEAST)
+    plain = context.is_named(table.list_elements[lists], "p")
+    found |= several & (table.summed(lists, plain) != table.counts)
+    least = np.zeros(len(table.elements), np.int64)
+    for name, corners in _LEAST.items():
+        least[table.kind(name)] = corners
+    whole, rest = np.divmod(lengths, table.strides[owners])
+    found[owners[several[owners] & ((rest > 0) | (whole < least[owners]))]] = True
+    return found
+
+
+def _faces(group: Group) -> Iterator[Hit]:
     each = _PER_FACE[group.name] * group.stride
     there = sum(len(values) for _, values in group.parts)
     if there == group.count * each:
@@ -120,7 +100,7 @@ def _faces(group: _Group) -> Iterator[Hit]:
     yield Hit(geometry_rules.PRIMITIVE_COUNT, group.element, message, attribute="count")
 
 
-def _lists(context: Context, group: _Group) -> Iterator[Hit]:
+def _lists(context: Context, group: Group) -> Iterator[Hit]:
     own = [part for part in group.parts if context.name(part[0]) == "p"]
     if len(own) != group.count:
         message = f"The count is {group.count}, but there are {len(own)} lists of indices."
@@ -134,7 +114,7 @@ def _lists(context: Context, group: _Group) -> Iterator[Hit]:
             yield Hit(geometry_rules.FEW_CORNERS, element, message)
 
 
-def _polylist(group: _Group) -> Iterator[Hit]:
+def _polylist(group: Group) -> Iterator[Hit]:
     there = sum(len(values) for _, values in group.parts)
     if group.vcount is None:
         if there or group.count:
@@ -172,14 +152,15 @@ def indices(context: Context) -> Iterator[Hit]:
 
     Where an index is lacking it is not told which of the others are wrong.
     """
-    inputs, unfit = inputs_of(context), unfit_inputs(context)
+    inputs, unfit, table = inputs_of(context), unfit_inputs(context), primitives_of(context)
     told: dict[int, Hit] = {}
     beyond: Counter[int] = Counter()
-    for group in groups_of(context):
+    for each in _beyond(context, table):
+        group = table.group(each)
         limits: dict[int, tuple[int, str, int]] = {}
         seen: set[tuple[str, int]] = set()
         for row in inputs.of(group.element):
-            kind = inputs.semantics[row], int(inputs.sets[row])
+            kind = inputs.semantic(row), int(inputs.sets[row])
             if kind in seen:
                 continue  # that it is there twice is told
             seen.add(kind)
@@ -189,7 +170,7 @@ def indices(context: Context) -> Iterator[Hit]:
                 continue
             offset = int(inputs.offsets[row])
             if offset not in limits or count < limits[offset][0]:
-                limits[offset] = count, inputs.semantics[row], row
+                limits[offset] = count, inputs.semantic(row), row
         for element, values in group.parts:
             if len(values) % (group.stride * _PER_FACE.get(group.name, 1)):
                 continue  # which index is of what cannot be told
@@ -212,6 +193,42 @@ def indices(context: Context) -> Iterator[Hit]:
         # Lists of one geometry that all lead past the end are wrong there, and not each.
         more = f" {beyond[target] - 1} more lists do so." if beyond[target] > 1 else ""
         yield replace(hit, message=hit.message + more)
+
+
+def _beyond(context: Context, table: Primitives) -> list[int]:
+    """The primitives with an index past the end of anything that an input of its place leads to."""
+    inputs = inputs_of(context)
+    corners = np.ones(len(table.elements), np.int64)
+    for name, count in _PER_FACE.items():
+        corners[table.kind(name)] = count
+    lists = np.flatnonzero((table.list_owners >= 0) & (table.list_lengths > 0))
+    owners = table.list_owners[lists]
+    whole = table.list_lengths[lists] % (table.strides * corners)[owners] == 0
+    lists, owners = lists[whole], owners[whole]
+    # What the indices at each place of a corner have to stay below, for each primitive.
+    used = np.zeros(len(table.elements), np.bool_)
+    used[owners] = True
+    strides = np.where(used, table.strides, 0)
+    firsts = np.cumsum(strides) - strides
+    limits = np.full(int(strides.sum()), np.iinfo(np.int64).max)
+    rows = np.flatnonzero((table.input_rows >= 0) & (inputs.counts >= 0))
+    rows = rows[used[table.input_rows[rows]]]
+    np.minimum.at(limits, firsts[table.input_rows[rows]] + inputs.offsets[rows],
+                  inputs.counts[rows])  # fmt: skip
+    found: set[int] = set()
+    for stride in np.unique(strides[owners]).tolist():
+        mine = np.flatnonzero(strides[owners] == stride)
+        starts, lengths = table.list_starts[lists[mine]], table.list_lengths[lists[mine]]
+        indices = table.indices
+        if int(lengths.sum()) < len(indices):
+            indices = indices[places_of(starts, lengths)]
+        most = np.maximum.reduceat(
+            indices.reshape(-1, stride), (np.cumsum(lengths) - lengths) // stride
+        )
+        places = firsts[owners[mine]][:, None] + np.arange(stride)
+        past = (most >= limits[places]).any(axis=1)
+        found.update(owners[mine[past]].tolist())
+    return sorted(found)
 
 
 CHECKS = (counts, indices)

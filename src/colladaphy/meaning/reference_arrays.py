@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from colladaphy.findings import Severity
 from colladaphy.links.rules import MISSING
 from colladaphy.meaning.addresses import lost_in
-from colladaphy.meaning.arrays import WordRows, sources_of
+from colladaphy.meaning.array_table import WordRows
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit, listed
 from colladaphy.meaning.inputs import inputs_of
+from colladaphy.meaning.source_table import sources_of
 
 __all__ = ["CHECKS"]
 
@@ -22,11 +25,8 @@ def ids(context: Context) -> Iterator[Hit]:
         return
     assert rows.ordinals is not None
     inputs, table = inputs_of(context), sources_of(context)
-    known = {
-        int(table.arrays[source])
-        for semantic, source in zip(inputs.semantics, inputs.sources.tolist(), strict=True)
-        if semantic in ("JOINT", "MORPH_TARGET") and source >= 0
-    }
+    told = np.flatnonzero(inputs.are("JOINT", "MORPH_TARGET") & (inputs.sources >= 0))
+    known = set(table.arrays[inputs.sources[told]].tolist())
     for array, words in zip(rows.ordinals.tolist(), rows.value, strict=True):
         if array in known:
             continue

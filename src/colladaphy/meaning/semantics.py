@@ -7,16 +7,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from difflib import get_close_matches
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from colladaphy.findings import Severity
 from colladaphy.meaning import geometry_rules
-from colladaphy.meaning.arrays import NUMBER_ARRAYS, TOKEN_ARRAYS, params_of, sources_of
+from colladaphy.meaning.array_table import NUMBER_ARRAYS, TOKEN_ARRAYS, accessors_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.inputs import PRIMITIVES, inputs_of, needed_by
+from colladaphy.meaning.source_table import sources_of
 
 __all__ = ["CHECKS", "meant_by", "unfit_inputs"]
+
+Array = NDArray[Any]
 
 
 class _Need(NamedTuple):
@@ -59,30 +65,39 @@ def unfit_inputs(context: Context) -> dict[int, str]:
 
 def _unfit(context: Context) -> dict[int, str]:
     inputs, table = inputs_of(context), sources_of(context)
-    params = params_of(context)
+    rows = np.flatnonzero((inputs.sources >= 0) & (inputs.kinds >= 0))
+    rows = rows[(np.append(table.arrays, -1)[inputs.sources[rows]] >= 0)]
+    names = context.columns.index.codes[inputs.owners[rows]]
+    # There are few kinds of inputs, of elements of few names.
+    keys = names.astype(np.int64) * len(inputs.kinds_texts) + inputs.kinds[rows]
     found: dict[int, str] = {}
-    owners: dict[int, dict[str, _Need]] = {}
-    for row, owner in enumerate(inputs.owners.tolist()):
-        source = int(inputs.sources[row])
-        if source < 0:
-            continue
-        if owner not in owners:
-            owners[owner] = _NEEDS.get(context.name(owner), {})
-        semantic = inputs.semantics[row]
-        need = owners[owner].get(semantic)
-        accessor, array = int(table.accessors[source]), int(table.arrays[source])
-        if need is None or accessor < 0 or array < 0:
-            continue
-        kind = context.name(array)
-        if kind in (TOKEN_ARRAYS if need.numbers else NUMBER_ARRAYS):
+    _, firsts, which = np.unique(keys, return_index=True, return_inverse=True)
+    for kind, first in enumerate(rows[firsts].tolist()):
+        semantic = inputs.semantic(first)
+        need = _NEEDS.get(context.name(int(inputs.owners[first])), {}).get(semantic)
+        if need is not None:
+            found.update(_unlike(context, rows[which == kind], semantic, need))
+    return dict(sorted(found.items()))
+
+
+def _unlike(context: Context, rows: Array, semantic: str, need: _Need) -> Iterator[tuple[int, str]]:
+    """The inputs of one kind whose values are of another one."""
+    sources, table = inputs_of(context).sources[rows], sources_of(context)
+    widths = table.widths[sources]
+    wrong = context.is_named(
+        table.arrays[sources], *(TOKEN_ARRAYS if need.numbers else NUMBER_ARRAYS)
+    )
+    others = ~np.isin(widths, need.widths) if need.widths else np.zeros_like(wrong)
+    for row, is_wrong, source, width in zip(
+        *(column[wrong | others].tolist() for column in (rows, wrong, sources, widths)), strict=True
+    ):
+        if is_wrong:
             wanted = "numbers" if need.numbers else "names"
-            found[row] = f"{semantic} needs {wanted}, but its values are in a <{kind}>."
-            continue
-        width = params.width(accessor, int(table.steps[source]))
-        if need.widths and width not in need.widths:
+            kind = context.name(int(table.arrays[source]))
+            yield row, f"{semantic} needs {wanted}, but its values are in a <{kind}>."
+        else:
             wanted = " or ".join(map(str, need.widths))
-            found[row] = f"{semantic} needs {wanted} values in an item, but there are {width}."
-    return found
+            yield row, f"{semantic} needs {wanted} values in an item, but there are {width}."
 
 
 def semantics(context: Context) -> Iterator[Hit]:
@@ -90,7 +105,7 @@ def semantics(context: Context) -> Iterator[Hit]:
     inputs, table = inputs_of(context), sources_of(context)
     told: set[tuple[int, str]] = set()
     for row, message in unfit_inputs(context).items():
-        semantic = inputs.semantics[row]
+        semantic = inputs.semantic(row)
         key = (int(inputs.sources[row]), semantic)
         if key in told:
             continue
@@ -104,9 +119,11 @@ def semantics(context: Context) -> Iterator[Hit]:
 def readable(context: Context) -> Iterator[Hit]:
     """Sources that inputs lead to, and that say nothing of how to read them."""
     inputs, table = inputs_of(context), sources_of(context)
+    lacking = np.append(table.accessors < 0, False)[inputs.sources]
     told: set[int] = set()
-    for row, source in enumerate(inputs.sources.tolist()):
-        if source >= 0 and table.accessors[source] < 0 and source not in told:
+    for row in np.flatnonzero(lacking).tolist():
+        source = int(inputs.sources[row])
+        if source not in told:
             told.add(source)
             element = int(table.elements[source])
             message = f"{context.label(element)} has no <accessor>, and an input leads to it."
@@ -117,12 +134,13 @@ def readable(context: Context) -> Iterator[Hit]:
 def spellings(context: Context) -> Iterator[Hit]:
     """Semantics that are misspelled; a program may have others of its own."""
     inputs = inputs_of(context)
-    meant = {name: meant_by(name) for name in set(inputs.semantics)}
-    for row, semantic in enumerate(inputs.semantics):
-        name, owner = meant[semantic], int(inputs.owners[row])
+    meant = {text: name for text in inputs.kinds_texts if (name := meant_by(text))}
+    for row in np.flatnonzero(inputs.are(*meant)).tolist():
+        semantic, owner = inputs.semantic(row), int(inputs.owners[row])
+        name = meant[semantic]
         # That an element lacks what it needs is told there.
         kind = context.name(owner)
-        if name is None or name in needed_by(kind) or kind not in (*PRIMITIVES, "vertices"):
+        if name in needed_by(kind) or kind not in (*PRIMITIVES, "vertices"):
             continue
         message = f"There is no semantic {semantic!r} in the standard, but there is {name!r}."
         yield Hit(geometry_rules.SEMANTIC, int(inputs.elements[row]), message, (owner,), "semantic",
@@ -147,19 +165,18 @@ def meant_by(semantic: str) -> str | None:
 def vertices(context: Context) -> Iterator[Hit]:
     """Vertices with more positions than normals, or the other way round."""
     inputs, table = inputs_of(context), sources_of(context)
-    for element in context.ordinals("vertices", "control_vertices").tolist():
-        first = inputs.named(element, "POSITION")
-        count = None if first < 0 else inputs.count(first)
-        for row in inputs.of(element):
-            other = inputs.count(row)
-            if row == first or count is None or other is None or other == count:
-                continue
-            if short := inputs.short(row, count) or inputs.short(first, other):
-                yield short
-                continue
-            message = f"There are {count} positions, but {other} values of {inputs.semantics[row]}."
-            yield Hit(geometry_rules.VERTEX_COUNT, int(inputs.elements[row]), message,
-                      (int(table.accessors[inputs.sources[row]]),), "source")  # fmt: skip
+    rows = np.flatnonzero(context.is_named(inputs.owners, "vertices", "control_vertices"))
+    firsts = inputs.first(inputs.owners[rows], "POSITION")
+    counts, others = np.append(inputs.counts, -1)[firsts], inputs.counts[rows]
+    unlike = (counts >= 0) & (others >= 0) & (counts != others)
+    for row, first in zip(rows[unlike].tolist(), firsts[unlike].tolist(), strict=True):
+        count, other = int(inputs.counts[first]), int(inputs.counts[row])
+        if short := inputs.short(row, count) or inputs.short(first, other):
+            yield short
+            continue
+        message = f"There are {count} positions, but {other} values of {inputs.semantic(row)}."
+        yield Hit(geometry_rules.VERTEX_COUNT, int(inputs.elements[row]), message,
+                  (int(table.accessors[inputs.sources[row]]),), "source")  # fmt: skip
 
 
 def names(context: Context) -> Iterator[Hit]:
@@ -167,15 +184,22 @@ def names(context: Context) -> Iterator[Hit]:
 
     Tangents have X and Y for each dimension of what they are the tangents of.
     """
-    inputs, table = inputs_of(context), sources_of(context)
-    tangents = [row for row, semantic in enumerate(inputs.semantics)
-                if semantic.endswith("_TANGENT") and inputs.sources[row] >= 0]  # fmt: skip
-    several = set(table.accessors[inputs.sources[tangents]].tolist()) if tangents else set()
-    for accessor, each in params_of(context).each():
-        if accessor in several:
+    inputs, table, accessors = inputs_of(context), sources_of(context), accessors_of(context)
+    named = np.flatnonzero(accessors.names > 0)
+    keys = np.stack([accessors.owners[named], accessors.names[named]])
+    order = np.lexsort(keys[::-1])
+    same = (keys[:, order[1:]] == keys[:, order[:-1]]).all(axis=0)
+    doubtful = np.unique(keys[0, order[1:][same]])
+    if not len(doubtful):
+        return
+    tangents = [text for text in inputs.kinds_texts if text.endswith("_TANGENT")]
+    rows = np.flatnonzero(inputs.are(*tangents) & (inputs.sources >= 0))
+    several = set(table.accessors[inputs.sources[rows]].tolist())
+    for row in doubtful.tolist():
+        if int(accessors.elements[row]) in several:
             continue
         seen: dict[str, int] = {}
-        for name, _, element in each:
+        for name, _, element in accessors.params_of(row):
             first = seen.setdefault(name, element)
             if name and first != element:
                 message = f"Another parameter of the accessor is named {name!r}."

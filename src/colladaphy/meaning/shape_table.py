@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.context import Context
-from colladaphy.meaning.surface_table import surface_of
+from colladaphy.meaning.surface_table import surfaces_of
 from colladaphy_schema.rows import Rows
 
 __all__ = ["Shapes", "shapes_of"]
@@ -98,29 +98,25 @@ class Shapes:
     def _geometries(self) -> None:
         context = self.context
         rows = context.children(self.rows, "instance_geometry", Rows)
-        self._meshes = list(
-            zip(rows.owner.tolist(), context.targets(context.texts(rows, "url")).tolist(),
-                strict=True)
-        )  # fmt: skip
-        measured: dict[int, tuple[float, float]] = {}
-        for row, geometry in self._meshes:
-            if geometry < 0:
-                continue
-            if geometry not in measured:
-                measured[geometry] = _measure(context, geometry)
-            self.volumes[row], self.reach[row] = measured[geometry]
+        targets = context.led("instance_geometry", "url", _ordinals(rows))
+        there = np.flatnonzero(targets >= 0)
+        self.mesh_rows: Array = rows.owner[there]
+        """(m,) the rows of shapes that are geometries of this document."""
+        self.geometries: Array = targets[there]
+        """(m,) these geometries."""
+        surfaces = surfaces_of(context)
+        at = surfaces.rows_of(self.geometries)
+        found = np.flatnonzero(at >= 0)
+        at, mine = at[found], self.mesh_rows[found]
+        whole = surfaces.closed[at] & surfaces.consistent[at]
+        self.volumes[mine] = np.where(whole, np.abs(surfaces.volumes[at]), np.nan)
+        self.reach[mine] = surfaces.reaches[at]
 
-    def meshes(self) -> list[tuple[int, int]]:
-        """Rows of shapes, and the geometries that they are."""
-        return [(row, geometry) for row, geometry in self._meshes if geometry >= 0]
-
-    def computed(self, row: int) -> bool:
-        """Whether a shape moves, and its body does not state both mass and inertia."""
-        bodies = bodies_of(self.context)
-        holder = int(self.holders[row])
-        if not bodies.moves[holder]:
-            return False
-        return bool(bodies.mass_elements[holder] < 0 or bodies.inertia_elements[holder] < 0)
+    def computed(self, rows: Array) -> Array:
+        """Which shapes (n,) move, while their bodies do not state both mass and inertia."""
+        bodies, holders = bodies_of(self.context), self.holders[rows]
+        lacking = (bodies.mass_elements[holders] < 0) | (bodies.inertia_elements[holders] < 0)
+        return np.asarray(bodies.moves[holders] & lacking)
 
     def stated_masses(self) -> Array:
         """(n,) the mass of each shape: stated, or density times volume; NaN where unknown."""
@@ -172,14 +168,9 @@ def _lengths(context: Context, translates: Array) -> Array:
     return np.asarray(np.linalg.norm(context.table("translate", translates, 3), axis=1))
 
 
-def _measure(context: Context, geometry: int) -> tuple[float, float]:
-    """Volume and reach of a geometry; NaN where they cannot be told."""
-    surface = surface_of(context, geometry)
-    if surface is None:
-        return np.nan, np.nan
-    if not (surface.is_closed and surface.is_consistent):
-        return np.nan, surface.reach
-    return abs(surface.volume), surface.reach
+def _ordinals(rows: Rows) -> Array:
+    assert rows.ordinals is not None
+    return rows.ordinals
 
 
 def shapes_of(context: Context) -> Shapes:

@@ -107,8 +107,9 @@ def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Arra
     flat[mine[plane]] = True  # turned as its normal says
     mine, shape = mine[~plane], shape[~plane]
     # The body of a mesh stands at its centre of mass.
-    meshes = np.array([row for row, _ in shapes.meshes()], np.int64)
-    known[mine] = ~framed[mine] & ~np.isin(shape, meshes)
+    is_mesh = np.zeros(len(shapes.elements), np.bool_)
+    is_mesh[shapes.mesh_rows] = True
+    known[mine] = ~framed[mine] & ~is_mesh[shape]
     mine, shape = mine[~framed[mine]], shape[~framed[mine]]
     made.put(mine, turn_rods(context, shape, shape_poses(context).take(shape)))
     return made, known, flat, clear

@@ -96,7 +96,7 @@ def members(context: Context) -> Iterator[Hit]:
     shapes = shapes_of(context)
     mine, rows = pairs_of(context).matched(elements)
     odd = np.zeros(len(shapes.elements), np.bool_)
-    odd[[row for row, _ in shapes.meshes()]] = True
+    odd[shapes.mesh_rows] = True
     odd[context.children(shapes.rows, "plane", Rows).owner] = True
     if unclear := unclear_nodes(context):
         odd |= np.isin(shapes.elements, list(unclear))

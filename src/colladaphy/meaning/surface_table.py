@@ -6,19 +6,20 @@ Many are measured at once: most documents have few large ones or very many small
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.counting import counted
-from colladaphy.meaning.arrays import sources_of
+from colladaphy.columns.spans import places_of
+from colladaphy.meaning.array_table import rows_among
 from colladaphy.meaning.context import Context
+from colladaphy.meaning.face_table import Faces, faces_of
 from colladaphy.meaning.inputs import inputs_of
-from colladaphy.meaning.primitives import groups_of, miscounted
+from colladaphy.meaning.source_table import sources_of
 
-__all__ = ["Surface", "surface_of"]
+__all__ = ["Surfaces", "surfaces_of"]
 
 Array = NDArray[Any]
 
@@ -27,161 +28,134 @@ _AT_ONCE = 1 << 20
 
 
 @dataclass(slots=True)
-class Surface:
-    """What is known of the faces of a geometry, equal points made one."""
+class Surfaces:
+    """What is known of the faces of geometries (n,), equal points made one.
 
-    is_closed: bool
-    is_consistent: bool
+    Those that have faulty indices, numbers or none at all are left out.
+    """
+
+    geometries: Array
+    """Their elements, in the order of the document."""
+    closed: Array
+    consistent: Array
     """Whether faces that share an edge are wound alike."""
-    volume: float
-    """With its sign; positive where it is wound outwards."""
-    extent: float
-    """The largest side of the box around it."""
-    reach: float
-    """How far its farthest point is from the origin."""
-    dent: float
-    """How far it is from convex across its edges, if it is closed and wound outwards."""
+    volumes: Array
+    """With their signs; positive where they are wound outwards."""
+    extents: Array
+    """The largest sides of the boxes around them."""
+    reaches: Array
+    """How far their farthest points are from their origins."""
+    dents: Array
+    """How far they are from convex across their edges, if closed and wound outwards."""
+
+    def rows_of(self, geometries: Array) -> Array:
+        """The rows of geometries; -1 for those that are left out."""
+        return rows_among(self.geometries, geometries)
 
 
-def surface_of(context: Context, geometry: int) -> Surface | None:
-    """The surface of a geometry; None where it has faulty indices, numbers or none at all."""
-    return context.shared(_surfaces).get(geometry)
-
-
-def _surfaces(context: Context) -> dict[int, Surface]:
+def surfaces_of(context: Context) -> Surfaces:
     """The surfaces of all geometries that can be read."""
-    found: dict[int, Surface] = {}
-    waiting: list[_Faces] = []
-    corners = 0
-    for faces in _readable(context):
-        waiting.append(faces)
-        corners += len(faces.corners)
-        if corners >= _AT_ONCE:
-            found.update(_measured(waiting))
-            waiting, corners = [], 0
-    found.update(_measured(waiting))
-    return found
+    return context.shared(_surfaces)
+
+
+def _surfaces(context: Context) -> Surfaces:
+    parts = [_measured(part) for part in _parts(context)]
+    parts = [part for part in parts if part is not None] or [_NONE]
+    columns = [np.concatenate([getattr(part, field.name) for part in parts])
+               for field in fields(Surfaces)]  # fmt: skip
+    return Surfaces(*columns)
+
+
+_NONE = Surfaces(*([np.zeros(0, np.int64)] + 2 * [np.zeros(0, np.bool_)] + 4 * [np.zeros(0)]))
 
 
 @dataclass(slots=True)
-class _Faces:
-    """The faces of one geometry."""
+class _Part:
+    """The faces of some geometries, with their points."""
 
-    geometry: int
+    faces: Faces
     points: Array
-    """(n, 3)."""
-    corners: Array
-    """(m,) the points of all faces, one after the other."""
-    sizes: Array
-    """(k,) the corners of each face."""
+    """(m, 3)."""
+    counts: Array
+    """(n,) how many of these each geometry has."""
+
+    def take(self, good: Array) -> _Part:
+        """Those of some geometries."""
+        ends = np.cumsum(self.counts)
+        points = self.points[places_of((ends - self.counts)[good], self.counts[good])]
+        return _Part(self.faces.take(good), points, self.counts[good])
 
 
-def _readable(context: Context) -> Iterator[_Faces]:
-    inputs, sources = inputs_of(context), sources_of(context)
+def _parts(context: Context) -> Iterator[_Part]:
+    inputs, sources, faces = inputs_of(context), sources_of(context), faces_of(context)
     vertices = context.ordinals("vertices")
-    at = dict(zip(context.ancestor(vertices, "geometry").tolist(), vertices.tolist(), strict=True))
-    for geometry, rings in _rings(context).items():
-        source = inputs.source(at[geometry], "POSITION") if geometry in at else -1
-        points = None if source < 0 else sources.numbers(source)
-        if points is None or points.shape[1] < 3:
-            continue
-        corners, sizes = rings[0]
-        if len(rings) > 1:
-            corners = np.concatenate([part for part, _ in rings])
-            sizes = np.concatenate([part for _, part in rings])
-        if len(corners) and len(points):
-            yield _Faces(geometry, points[:, :3], corners, sizes)
+    around = context.ancestor(vertices, "geometry")
+    # The last ones of a geometry count.
+    at = context.numbered(around[::-1], faces.geometries)
+    vertices = np.append(vertices[::-1], -1)[at].astype(np.int64)
+    rows = np.append(inputs.sources, -1)[inputs.first(vertices, "POSITION")]
+    good = (rows >= 0) & (faces.corner_counts > 0)
+    good[good] = sources.is_readable(rows[good])
+    good[good] = (sources.steps[rows[good]] >= 3) & (sources.counts[rows[good]] > 0)
+    faces, rows = faces.take(np.flatnonzero(good)), rows[good]
+    ends = np.cumsum(faces.corner_counts)
+    begin = 0
+    while begin < len(rows):
+        before = int(ends[begin - 1]) if begin else 0
+        end = int(np.searchsorted(ends, before + _AT_ONCE)) + 1
+        mine = np.arange(begin, min(end, len(rows)))
+        yield _Part(faces.take(mine), sources.items(rows[mine], 3), sources.counts[rows[mine]])
+        begin = end
 
 
-def _usable(faces: list[_Faces]) -> list[_Faces]:
+def _usable(part: _Part) -> _Part:
     """Those with numbers for points, with no corner beyond these, and three corners a face."""
-    good = np.ones(len(faces), np.bool_)
-    for parts, wrong in (
-        ([each.points for each in faces], lambda points: ~np.isfinite(points).all(axis=1)),
-        ([each.sizes for each in faces], lambda sizes: counted(sizes) < 3),
-    ):
-        owner = np.repeat(np.arange(len(faces)), [len(part) for part in parts])
-        good[owner[wrong(np.concatenate(parts))]] = False
-    lengths = np.array([len(each.corners) for each in faces])
-    corners = counted(np.concatenate([each.corners for each in faces]))
-    most = np.maximum.reduceat(corners, np.cumsum(lengths) - lengths)
-    good &= most < [len(each.points) for each in faces]
-    return [faces[row] for row in np.flatnonzero(good).tolist()]
+    faces, every = part.faces, np.arange(len(part.counts))
+    good = np.ones(len(every), np.bool_)
+    good[np.repeat(every, part.counts)[~np.isfinite(part.points).all(axis=1)]] = False
+    good[np.repeat(every, faces.size_counts)[faces.sizes < 3]] = False
+    begin = np.cumsum(faces.corner_counts) - faces.corner_counts
+    good &= np.maximum.reduceat(faces.corners, begin) < part.counts
+    return part if good.all() else part.take(np.flatnonzero(good))
 
 
-def _rings(context: Context) -> dict[int, list[tuple[Array, Array]]]:
-    """The corners, and the sizes, of the faces of each geometry."""
-    inputs, groups = inputs_of(context), groups_of(context)
-    elements = np.array([group.element for group in groups], np.int64)
-    around = context.ancestor(elements, "geometry").tolist()
-    # Of what is not counted right, nobody can tell the faces.
-    faulty = miscounted(context)
-    wrong = {at for group, at in zip(groups, around, strict=True) if group.element in faulty}
-    found: dict[int, list[tuple[Array, Array]]] = {}
-    for group, geometry in zip(groups, around, strict=True):
-        row = inputs.named(group.element, "VERTEX")
-        if geometry < 0 or geometry in wrong or row < 0 or group.name in ("lines", "linestrips"):
-            continue
-        made = found.setdefault(geometry, [])
-        for _, values in group.parts:
-            part = values[int(inputs.offsets[row]) :: group.stride]
-            if group.name == "triangles":
-                made.append((part[: len(part) // 3 * 3], np.full(len(part) // 3, 3)))
-            elif group.name == "polylist":
-                if group.vcount is not None and int(group.vcount[1].sum()) == len(part):
-                    made.append((part, group.vcount[1]))
-            elif group.name == "polygons":
-                made.append((part, np.array([len(part)])))
-            elif len(part) > 2:
-                count = len(part) - 2
-                first = np.broadcast_to(part[:1], (count,))
-                if group.name == "tristrips":
-                    first = part[:count]
-                fan = np.stack([first, part[1:-1], part[2:]], axis=1)
-                if group.name == "tristrips":
-                    fan[1::2] = fan[1::2, ::-1]
-                made.append((fan.reshape(-1), np.full(count, 3)))
-    return {geometry: rings for geometry, rings in found.items() if rings}
-
-
-def _measured(faces: list[_Faces]) -> Iterator[tuple[int, Surface]]:
-    faces = _usable(faces) if faces else []
-    if not faces:
-        return
-    points, corners, home, first = _joined(faces)
-    sizes = counted(np.concatenate([each.sizes for each in faces]))
+def _measured(part: _Part) -> Surfaces | None:
+    part = _usable(part)
+    count = len(part.counts)
+    if not count:
+        return None
+    points, corners, home, first = _joined(part)
+    sizes = part.faces.sizes
     starts = np.cumsum(sizes) - sizes
     owner = home[corners[starts]]
     """(k,) the geometry of each face."""
     triangles = _triangles(corners, starts, sizes)
     mine = np.repeat(owner, sizes - 2)
     """(m,) the geometry of each triangle."""
-    edges = _Edges(triangles, mine, len(first))
+    edges = _Edges(triangles, mine, count)
     least, most = np.minimum.reduceat(points, first), np.maximum.reduceat(points, first)
     extents = (most - least).max(axis=1)
     counts = np.diff(np.append(first, len(points)))
     middles = np.add.reduceat(points, first) / counts[:, None]
     one, two, three = (points[triangles[:, k]] - middles[mine] for k in range(3))
-    begin = np.searchsorted(mine, np.arange(len(faces)))
+    begin = np.searchsorted(mine, np.arange(count))
     volumes = np.add.reduceat(np.sum(np.cross(one, two) * three, axis=1), begin) / 6.0
     reaches = np.maximum.reduceat(np.linalg.norm(points, axis=1), first)
     dents = edges.dents(points, edges.consistent & (volumes > 0.0))
-    columns = (edges.closed, edges.consistent, volumes, extents, reaches, dents)
-    for each, *values in zip(faces, *(column.tolist() for column in columns), strict=True):
-        yield each.geometry, Surface(*values)
+    return Surfaces(
+        part.faces.geometries, edges.closed, edges.consistent, volumes, extents, reaches, dents
+    )
 
 
-def _joined(faces: list[_Faces]) -> tuple[Array, Array, Array, Array]:
+def _joined(part: _Part) -> tuple[Array, Array, Array, Array]:
     """The different points of all, the corners as numbers of these, their geometries, the firsts.
 
     The points of a geometry stand together.
     """
-    counts = np.array([len(each.points) for each in faces])
-    base = np.cumsum(counts) - counts
-    points = np.concatenate([each.points for each in faces]) + 0.0
-    home = np.repeat(np.arange(len(faces)), counts)
-    corners = counted(np.concatenate([each.corners for each in faces]))
-    corners += np.repeat(base, [len(each.corners) for each in faces])
+    base = np.cumsum(part.counts) - part.counts
+    points = part.points + 0.0
+    home = np.repeat(np.arange(len(base)), part.counts)
+    corners = part.faces.corners + np.repeat(base, part.faces.corner_counts)
     order = np.lexsort((points[:, 2], points[:, 1], points[:, 0], home))
     points, home = points[order], home[order]
     new = np.ones(len(points), np.bool_)
@@ -189,7 +163,7 @@ def _joined(faces: list[_Faces]) -> tuple[Array, Array, Array, Array]:
     number = np.empty(len(points), np.int64)
     number[order] = np.cumsum(new) - 1
     home = home[new]
-    return points[new], number[corners], home, np.searchsorted(home, np.arange(len(faces)))
+    return points[new], number[corners], home, np.searchsorted(home, np.arange(len(base)))
 
 
 def _triangles(corners: Array, starts: Array, sizes: Array) -> Array:

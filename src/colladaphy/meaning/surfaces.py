@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
 
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.shape_table import shapes_of
-from colladaphy.meaning.surface_table import surface_of
+from colladaphy.meaning.surface_table import Surfaces, surfaces_of
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
+
+Array = NDArray[Any]
 
 
 _TOLERANCE = 1e-3
@@ -20,101 +26,84 @@ _TOLERANCE = 1e-3
 
 def convex_meshes(context: Context) -> Iterator[Hit]:
     """Convex meshes that are open, inside out or dented."""
-    rows = context.rows(Rows, "convex_mesh")
-    if not len(rows):
+    elements = context.ordinals("convex_mesh")
+    if not len(elements):
         return
-    assert rows.ordinals is not None
-    for element, hull_of in zip(
-        rows.ordinals.tolist(), context.texts(rows, "convex_hull_of"), strict=True
-    ):
-        if hull_of is not None:
-            continue
-        geometry = int(context.parent[element])
-        surface = surface_of(context, geometry)
-        if surface is None:
-            continue
+    numbers, _, _ = context.links(context.rows(Rows, "convex_mesh"), "convex_hull_of")
+    surfaces = surfaces_of(context)
+    geometries = context.parent[elements].astype(np.int64)
+    rows = surfaces.rows_of(geometries)
+    doubtful = _without_volume(surfaces) | (surfaces.volumes < 0.0)
+    doubtful |= surfaces.dents > _TOLERANCE * surfaces.extents
+    doubtful = np.append(doubtful, False)[rows] & (numbers < 0)
+    for place in np.flatnonzero(doubtful).tolist():
+        element, geometry, row = int(elements[place]), int(geometries[place]), int(rows[place])
         name = context.label(geometry)
-        if not surface.is_closed:
-            yield Hit(
-                geometry_rules.OPEN, element, f"The convex mesh of {name} has holes.", (geometry,)
-            )
-        elif not surface.is_consistent:
-            yield Hit(
-                geometry_rules.MIXED_WINDING,
-                element,
-                f"Faces of {name} are wound both ways.",
-                (geometry,),
-            )
-        elif abs(surface.volume) <= 1e-9 * _cube(surface.extent):
-            yield Hit(
-                geometry_rules.NO_VOLUME,
-                element,
-                f"The convex mesh of {name} has no volume.",
-                (geometry,),
-            )
-        elif surface.volume < 0.0:
-            message = f"The faces of {name} are wound inwards."
-            yield Hit(geometry_rules.INWARD, element, message, (geometry,))
-        elif surface.dent > _TOLERANCE * surface.extent:
-            message = f"{name} is dented by {surface.dent:.3g}."
-            yield Hit(geometry_rules.NOT_CONVEX, element, message, (geometry,))
+        if not surfaces.closed[row]:
+            message, rule = f"The convex mesh of {name} has holes.", geometry_rules.OPEN
+        elif not surfaces.consistent[row]:
+            message, rule = f"Faces of {name} are wound both ways.", geometry_rules.MIXED_WINDING
+        elif _without_volume(surfaces)[row]:
+            message = f"The convex mesh of {name} has no volume."
+            rule = geometry_rules.NO_VOLUME
+        elif surfaces.volumes[row] < 0.0:
+            message, rule = f"The faces of {name} are wound inwards.", geometry_rules.INWARD
+        else:
+            message = f"{name} is dented by {surfaces.dents[row]:.3g}."
+            rule = geometry_rules.NOT_CONVEX
+        yield Hit(rule, element, message, (geometry,))
+
+
+def _without_volume(surfaces: Surfaces) -> Array:
+    """Which surfaces (n,) have no volume that could be told."""
+    with np.errstate(over="ignore"):
+        none = np.abs(surfaces.volumes) <= 1e-9 * surfaces.extents**3
+    return np.asarray(none | ~surfaces.closed | ~surfaces.consistent)
 
 
 def faces(context: Context) -> Iterator[Hit]:
     """Shapes of geometries that have nothing but points and lines."""
     shapes = shapes_of(context)
-    if not shapes.meshes():
+    if not len(shapes.mesh_rows):
         return
     there = context.ordinals("triangles", "polygons", "polylist", "trifans", "tristrips")
-    with_faces = set(context.ancestor(there, "geometry").tolist())
-    others = context.first_children("mesh", "spline")
-    for row, geometry in shapes.meshes():
-        if geometry in others and geometry not in with_faces:
-            name = context.name(others[geometry])
-            message = f"{context.label(geometry)} is a <{name}> without faces."
-            instances = context.first_children("instance_geometry")
-            element = instances.get(int(shapes.elements[row]), int(shapes.elements[row]))
-            yield Hit(geometry_rules.NO_FACES, element, message, (others[geometry],), "url")
-
-
-def _cube(size: float) -> float:
-    """Infinite where a power would raise OverflowError."""
-    return size * size * size
+    others = context.ordinals("mesh", "spline")
+    lacking = np.isin(shapes.geometries, context.parent[others])
+    lacking &= ~np.isin(shapes.geometries, context.ancestor(there, "geometry"))
+    for place in np.flatnonzero(lacking).tolist():
+        row, geometry = int(shapes.mesh_rows[place]), int(shapes.geometries[place])
+        content = _content(context, geometry, "mesh", "spline")
+        message = f"{context.label(geometry)} is a <{context.name(content)}> without faces."
+        instances = context.first_children("instance_geometry")
+        element = instances.get(int(shapes.elements[row]), int(shapes.elements[row]))
+        yield Hit(geometry_rules.NO_FACES, element, message, (content,), "url")
 
 
 def moving_meshes(context: Context) -> Iterator[Hit]:
     """Meshes of bodies that move whose mass or inertia has to be computed, and cannot."""
-    shapes = shapes_of(context)
+    shapes, surfaces = shapes_of(context), surfaces_of(context)
+    rows = surfaces.rows_of(shapes.geometries)
+    doubtful = np.append(_without_volume(surfaces), False)[rows]
     told: set[int] = set()
-    for row, geometry in shapes.meshes():
-        if geometry in told or not shapes.computed(row):
+    for place in np.flatnonzero(doubtful & shapes.computed(shapes.mesh_rows)).tolist():
+        row, geometry = int(rows[place]), int(shapes.geometries[place])
+        element = _content(context, geometry, "mesh", "convex_mesh")
+        if geometry in told or context.name(element) != "mesh":
             continue
         told.add(geometry)
-        if context.name(_content(context, geometry)) != "mesh":
-            continue
-        surface = surface_of(context, geometry)
-        if surface is None:
-            continue
-        element = _content(context, geometry)
-        name, related = context.label(geometry), (int(shapes.elements[row]),)
-        if not surface.is_closed:
+        name, related = context.label(geometry), (int(shapes.elements[shapes.mesh_rows[place]]),)
+        if not surfaces.closed[row]:
             message = f"The mesh of {name} has holes, and a body that moves is made of it."
-            yield Hit(geometry_rules.OPEN, element, message, related)
-        elif not surface.is_consistent:
-            yield Hit(
-                geometry_rules.MIXED_WINDING,
-                element,
-                f"Faces of {name} are wound both ways.",
-                related,
-            )
-        elif abs(surface.volume) <= 1e-9 * _cube(surface.extent):
-            yield Hit(
-                geometry_rules.NO_VOLUME, element, f"The mesh of {name} has no volume.", related
-            )
+            rule = geometry_rules.OPEN
+        elif not surfaces.consistent[row]:
+            message, rule = f"Faces of {name} are wound both ways.", geometry_rules.MIXED_WINDING
+        else:
+            message, rule = f"The mesh of {name} has no volume.", geometry_rules.NO_VOLUME
+        yield Hit(rule, element, message, related)
 
 
-def _content(context: Context, geometry: int) -> int:
-    return context.first_children("mesh", "convex_mesh").get(geometry, geometry)
+def _content(context: Context, geometry: int, *names: str) -> int:
+    return context.first_children(*names).get(geometry, geometry)
 
 
 CHECKS = (faces, convex_meshes, moving_meshes)

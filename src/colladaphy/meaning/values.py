@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 
 from colladaphy.meaning import geometry_rules
-from colladaphy.meaning.arrays import sources_of
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.inputs import inputs_of
 from colladaphy.meaning.semantics import unfit_inputs
+from colladaphy.meaning.source_table import sources_of
 
 __all__ = ["CHECKS"]
 
@@ -43,9 +43,9 @@ def normals(context: Context) -> Iterator[Hit]:
     """Sources of directions with some that have no length."""
     inputs, table, unfit = inputs_of(context), sources_of(context), unfit_inputs(context)
     seen: set[int] = set()
-    for row, semantic in enumerate(inputs.semantics):
+    for row in np.flatnonzero(inputs.are(*_DIRECTIONS) & (inputs.sources >= 0)).tolist():
         source = int(inputs.sources[row])
-        if semantic not in _DIRECTIONS or source < 0 or source in seen or row in unfit:
+        if source in seen or row in unfit:
             continue
         owner = int(inputs.owners[row])
         if context.name(owner) == "vertices" and inputs.named(owner, "POSITION") < 0:
