@@ -47,7 +47,6 @@ def ends(context: Context) -> Iterator[Hit]:
     keys = (there.around * width + there.parts)[order]
     order = order[np.argsort(keys, kind="stable")]
     keys.sort()
-    models = context.parent[context.ordinals("instance_physics_model")]
     told: set[int] = set()
     broken = set(there.around[there.lost].tolist())
     ends = table.bodies[rows]
@@ -69,12 +68,7 @@ def ends(context: Context) -> Iterator[Hit]:
                 f"so the constraint {text!r} cannot tell which one is meant."
             )
             yield Hit(link_rules.BODY_TWICE, found[1], message, (found[0], end), "body")
-        elif (
-            not found
-            and int(context.parent[body]) not in models
-            and instance not in broken
-            and element not in told
-        ):
+        elif not found and instance not in broken and element not in told:
             told.add(element)
             message = (
                 f"The constraint {text!r} attaches to the body {sid!r} ({SIDES[side]}), which this "

@@ -88,7 +88,7 @@ def springs(context: Context) -> Iterator[Hit]:
             values, elements = context.scalars(groups, part)
             good = np.isfinite(values)
             if part != "target_value":
-                good = values >= 0.0  # INF is rigid
+                good &= values >= 0.0
             for row in np.flatnonzero((elements >= 0) & ~good).tolist():
                 message = f"The {part.replace('_', ' ')} of the {name} spring is {values[row]:g}."
                 nothing = math.isnan(float(values[row]))

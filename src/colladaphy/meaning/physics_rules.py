@@ -146,7 +146,7 @@ MATERIAL_RANGE = Rule(
     "physics-material-range",
     Severity.WARNING,
     "A value of a material is out of its range.",
-    "Restitution is from 0 to 1; frictions are not negative.",
+    "Restitution is from 0 to 1; frictions are finite and not negative.",
     "COLLADA 1.5 §physics_material",
     "Bodies gain energy at every contact; loading takes the nearest value within the range.",
 )
@@ -209,10 +209,10 @@ JOINT_RADIANS = Rule(
 JOINT_SPRING = Rule(
     "physics-joint-spring",
     Severity.WARNING,
-    "A spring of a joint pushes away, or is no number.",
-    "Stiffness and damping are not negative.",
+    "A spring of a joint pushes away, or is not of finite numbers.",
+    "Stiffness and damping are finite and not negative.",
     "COLLADA 1.5 §spring",
-    "The joint gains energy until it breaks apart.",
+    "The joint gains energy until it breaks apart, or cannot be loaded.",
 )
 JOINT_SELF = Rule(
     "physics-joint-self",

@@ -26,18 +26,17 @@ def materials(context: Context) -> Iterator[Hit]:
         mine = values[name]
         most = 1.0 if name == "restitution" else np.inf
         nothing = there & np.isnan(mine)
-        wrong = there & ~nothing & ~((mine >= 0.0) & (mine <= most))
+        wrong = there & ~nothing & ~((mine >= 0.0) & (mine <= most) & np.isfinite(mine))
         spelled = name.replace("_", " ")
         for row in np.flatnonzero(nothing).tolist():
             yield Hit(
                 physics_rules.MATERIAL_NUMBER, int(elements[name][row]), f"The {spelled} is NaN."
             )
         for row in np.flatnonzero(wrong).tolist():
-            yield Hit(
-                physics_rules.MATERIAL_RANGE,
-                int(elements[name][row]),
-                f"The {spelled} is {mine[row]:g}.",
-            )
+            message = f"The {spelled} is {mine[row]:g}."
+            if mine[row] == np.inf and most == np.inf:
+                message = f"The {spelled} is INF, of which loading takes none."
+            yield Hit(physics_rules.MATERIAL_RANGE, int(elements[name][row]), message)
     still, sliding = values["static_friction"], values["dynamic_friction"]
     for row in np.flatnonzero((sliding > still) & (still >= 0.0)).tolist():
         message = f"The dynamic friction is {sliding[row]:g}, the static one {still[row]:g}."
