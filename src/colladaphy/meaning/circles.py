@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -42,17 +42,22 @@ def circles(context: Context) -> Iterator[Hit]:
         around = context.ancestor(elements, *kinds)
         targets = context.targets(reference.text for reference in references)
         below: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+        used: list[int] = []
         for element, outer, target in zip(
             elements.tolist(), around.tolist(), targets.tolist(), strict=True
         ):
-            if outer >= 0 and target >= 0 and context.name(target) in kinds:
+            if target < 0 or context.name(target) not in kinds:
+                continue
+            if outer >= 0:
                 below[outer].append((target, element))
+            else:
+                used.append(target)
         if not below:
             continue
         if kinds == ("node",):
             _nest(context, below)
         told: set[int] = set()
-        for element, target in _closing(below):
+        for element, target in _closing(below, used):
             if target in told:
                 continue
             told.add(target)
@@ -77,12 +82,17 @@ def _nest(context: Context, below: dict[int, list[tuple[int, int]]]) -> None:
             waiting.append(outer)
 
 
-def _closing(below: dict[int, list[tuple[int, int]]]) -> Iterable[tuple[int, int]]:
-    """The references that close circles, and what they lead to: one of each circle."""
+def _closing(
+    below: dict[int, list[tuple[int, int]]], used: Sequence[int] = ()
+) -> Iterable[tuple[int, int]]:
+    """The references that close circles, and what they lead to: one of each circle.
+
+    It is the one that closes it as seen from what is `used` from outside, which loading goes by.
+    """
     state: dict[int, int] = {}
     found = []
-    for start in sorted(below):
-        if start in state:
+    for start in (*used, *sorted(below)):
+        if start in state or start not in below:
             continue
         state[start] = 1
         stack = [(start, iter(sorted(below[start], key=lambda edge: edge[1])))]

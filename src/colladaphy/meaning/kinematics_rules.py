@@ -79,8 +79,17 @@ TRANSFORM = Rule(
     "COLLADA 1.5 §bind_joint_axis",
     "The joint moves nothing, or something else.",
 )
+LOOP = Rule(
+    "kinematics-loop",
+    Severity.WARNING,
+    "A joint that closes a loop of links is attached at one end only.",
+    "Give each <attachment_start> an <attachment_end> of the same joint, on the other link.",
+    "COLLADA 1.5 §attachment_start",
+    "The loop stays open, and the joint binds nothing.",
+)
 
 RULES = (
+    LOOP,
     NUMBER,
     RATE,
     JOINT_TWICE,

@@ -29,6 +29,7 @@ _ARRAYS = ("float_array", "int_array", "bool_array", "Name_array", "IDREF_array"
 
 URIS: Final = (
     *(Uri(f"instance_{name}", "url", (name,)) for name in _INSTANCES),
+    Uri("sampler_image", "url", ("image",)),
     Uri("instance_node", "proxy", ("node",)),
     Uri("instance_rigid_body", "target", ("node",)),
     Uri("instance_physics_model", "parent", ("node",)),

@@ -42,14 +42,22 @@ def numbers(context: Context) -> Iterator[Hit]:
 
 
 def joints(context: Context) -> Iterator[Hit]:
-    """Joints that bind two links, or more."""
+    """Joints that bind two links, or more; what is in a link that is there twice is so as well."""
     seen: dict[tuple[int, str], int] = {}
+    told: set[int] = set()
     for reference in context.references("joint", "attachment_full"):
         model = int(context.ancestor(np.array([reference.element]), "kinematics_model")[0])
         first = seen.setdefault((model, reference.text.strip()), reference.element)
-        if first != reference.element:
+        if first != reference.element and told.isdisjoint(_around(context, reference.element)):
+            told.add(reference.element)
             message = f"The joint {reference.text.strip()!r} binds another link already."
             yield Hit(kinematics_rules.JOINT_TWICE, reference.element, message, (first,), "joint")
+
+
+def _around(context: Context, element: int) -> Iterator[int]:
+    """The elements around an element."""
+    while (element := int(context.parent[element])) >= 0:
+        yield element
 
 
 def axes(context: Context) -> Iterator[Hit]:
@@ -75,6 +83,7 @@ def bindings(context: Context) -> Iterator[Hit]:
         return
     assert rows.ordinals is not None
     axes = _texts(context, rows, "axis", "param")
+    stated = _texts(context, rows, "axis", "SIDREF")
     sids = context.shared(_parameters)
     floats = context.children(rows, "value", Rows)
     values, places = context.scalars(floats, "float")
@@ -82,15 +91,16 @@ def bindings(context: Context) -> Iterator[Hit]:
     targets = context.texts(rows, "target")
     for row, element in enumerate(rows.ordinals.tolist()):
         scene = int(context.parent[element])
-        joint = context.shared(_axes).get(_ending(sids.get((scene, axes.get(row, "")), "")), -1)
+        address = stated.get(row) or sids.get((scene, axes.get(row, "")), "")
+        joint = context.shared(_axes).get(_ending(address), -1)
         if joint < 0:
             continue
         low, high = context.shared(_limits).get(joint, (-np.inf, np.inf))
-        stated, place = value.get(row, (np.nan, -1))
-        if place >= 0 and not np.isnan(stated):
+        number, place = value.get(row, (np.nan, -1))
+        if place >= 0 and not np.isnan(number):
             room = _DEGREES * max(abs(low), abs(high), 1.0) if np.isfinite(high - low) else 0.0
-            if low < high and not low - room <= stated <= high + room:
-                message = f"The joint is at {stated:g}, but its limits are {low:g} and {high:g}."
+            if low < high and not low - room <= number <= high + room:
+                message = f"The joint is at {number:g}, but its limits are {low:g} and {high:g}."
                 yield Hit(kinematics_rules.VALUE, place, message, (joint,))
         target = _transform(context, targets[row])
         turns = context.name(joint) == "revolute"

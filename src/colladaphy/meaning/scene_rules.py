@@ -114,7 +114,26 @@ RADIANS = Rule(
     why="It turns by a degree or two where a large part of a circle is meant.",
 )
 
+LAYER = Rule(
+    "scene-layer",
+    Severity.WARNING,
+    "A rendering is of a layer that no node is in.",
+    "Name a layer that a node has, or give the layer to the nodes that are meant.",
+    "COLLADA 1.5 §render",
+    "Nothing is shown of it.",
+)
+IMAGE_SIZE = Rule(
+    "scene-image-size",
+    Severity.WARNING,
+    "An image has no extent, or a file for a level that it has not.",
+    "Sizes are positive, and levels are counted from 0 up to one less than there are.",
+    "COLLADA 1.5 §create_2d",
+    why="Programs refuse the image, or show nothing of it.",
+)
+
 RULES = (
+    LAYER,
+    IMAGE_SIZE,
     CAMERA_NODE,
     RADIANS,
     COLOR,
