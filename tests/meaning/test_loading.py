@@ -58,13 +58,8 @@ _REFERENCE = re.compile(rb'(?<=")#?[A-Za-z]+[0-9]+(?=")')
 _ODD = (b"0", b"-1", b"NaN", b"INF", b"-INF", b"1e999", b"1e-320", b"1e308", b"")
 
 
-@some
-@given(worlds(min_bodies=0, extreme=False), st.integers(0, 2**32), st.integers(1, 3))
-def test_edited_worlds(world: World, seed: int, times: int) -> None:
-    """Numbers and references are replaced by others, and by such as have no meaning."""
-    target = io.BytesIO()
-    colladaphy.write(world, target)
-    data, chance = target.getvalue(), random.Random(seed)
+def edited(data: bytes, chance: random.Random, times: int) -> bytes:
+    """A document with some numbers and references replaced."""
     for _ in range(times):
         pattern = chance.choice((_NUMBER, _NUMBER, _REFERENCE))
         found = list(pattern.finditer(data))
@@ -73,7 +68,16 @@ def test_edited_worlds(world: World, seed: int, times: int) -> None:
         place = chance.choice(found)
         others = [*_ODD] if pattern is _NUMBER else [m.group() for m in found] + [b"#none", b""]
         data = data[: place.start()] + chance.choice(others) + data[place.end() :]
-    check(data)
+    return data
+
+
+@some
+@given(worlds(min_bodies=0, extreme=False), st.integers(0, 2**32), st.integers(1, 3))
+def test_edited_worlds(world: World, seed: int, times: int) -> None:
+    """Numbers and references are replaced by others, and by such as have no meaning."""
+    target = io.BytesIO()
+    colladaphy.write(world, target)
+    check(edited(target.getvalue(), random.Random(seed), times))
 
 
 @pytest.mark.parametrize("case", FAULTS + NEAR)

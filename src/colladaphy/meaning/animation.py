@@ -227,7 +227,7 @@ def _width(context: Context, element: int, sampler: int, what: str, wanted: int)
             animation_rules.OUTPUT_WIDTH,
             element,
             message,
-            (int(table.accessors[source]),),
+            (int(table.accessors[source]), sampler),
             "target",
         )
 

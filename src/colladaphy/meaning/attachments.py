@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -55,6 +56,7 @@ def ends(context: Context) -> Iterator[Hit]:
     own = (ends >= 0) & (context.parent[held] == context.parent[table.elements[rows]][:, None])
     wanted = used.around[mine][:, None] * width + held
     first, last = (np.searchsorted(keys, wanted, side=side) for side in ("left", "right"))
+    lacking: dict[tuple[int, int], list[Hit]] = {}
     for place, side in np.argwhere(own & (last - first != 1)).tolist():
         element, instance = int(used.elements[mine[place]]), int(used.around[mine[place]])
         body, text = int(held[place, side]), used.texts[mine[place]]
@@ -74,7 +76,11 @@ def ends(context: Context) -> Iterator[Hit]:
                 f"The constraint {text!r} attaches to the body {sid!r} ({SIDES[side]}), which this "
                 "instance of the model does not instance."
             )
-            yield Hit(link_rules.BODY_NOT_INSTANCED, element, message, (end, body), "constraint")
+            hit = Hit(link_rules.BODY_NOT_INSTANCED, element, message, (end, body), "constraint")
+            lacking.setdefault((instance, body), []).append(hit)
+    for hits in lacking.values():  # one instance is lacking, however many attach to it
+        more = f" {len(hits) - 1} more constraints attach to it."
+        yield replace(hits[0], message=hits[0].message + (more if len(hits) > 1 else ""))
 
 
 CHECKS = (attachments, ends)

@@ -94,6 +94,10 @@ def hits_of(
             for function in module.CHECKS:
                 hits.extend(function(context))
         hits.extend(_offered(context))
+    if len(hits) > 1:
+        from colladaphy.meaning.consequences import without_consequences
+
+        return without_consequences(context, hits)
     return hits
 
 

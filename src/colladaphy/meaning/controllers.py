@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.counting import counted
 from colladaphy.findings import Severity
 from colladaphy.links.rules import MISSING, WRONG_TYPE
 from colladaphy.meaning import animation_rules
@@ -16,10 +17,16 @@ from colladaphy.meaning.array_table import CountRows
 from colladaphy.meaning.context import Context, IntegerRows, NamedRows, TextRows
 from colladaphy.meaning.hits import Hit, listed
 from colladaphy.meaning.inputs import inputs_of
-from colladaphy.meaning.materials import geometry_of
 from colladaphy.meaning.scene import degenerate_matrices
 from colladaphy.meaning.semantics import unfit_inputs
 from colladaphy.meaning.source_table import sources_of
+from colladaphy.meaning.vertex_counts import (
+    base_of,
+    geometry_size,
+    odd_geometries,
+    positions_of,
+    short_positions,
+)
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
@@ -35,6 +42,7 @@ def weights(context: Context) -> Iterator[Hit]:
     assert rows.ordinals is not None
     inputs, table = inputs_of(context), sources_of(context)
     sizes, pairs = _lists(context, rows, "vcount"), _lists(context, rows, "v")
+    odd = odd_geometries(context)
     for row, (element, count) in enumerate(
         zip(rows.ordinals.tolist(), rows.count.values.tolist(), strict=True)
     ):
@@ -43,17 +51,18 @@ def weights(context: Context) -> Iterator[Hit]:
         vcount, v = sizes.get(row), pairs.get(row)
         length = 0 if vcount is None else len(vcount[1])
         skin = int(context.parent[element])
-        vertices = _vertex_count(context, skin)
+        geometry = base_of(context, skin)
+        vertices = None if geometry in odd else geometry_size(context, geometry)
         if length != count:
             message = f"The count is {count}, but there are numbers of weights for {length}."
             yield Hit(animation_rules.SKIN_COUNT, element, message, (), "count")
             continue
         if vertices is not None and count != vertices:
-            if short := _short_vertices(context, skin, count):
+            if short := short_positions(context, geometry, count):
                 yield short
                 continue
             message = f"There are weights for {count} vertices, but the geometry has {vertices}."
-            yield Hit(animation_rules.SKIN_COUNT, element, message, (), "count")
+            yield Hit(animation_rules.SKIN_COUNT, element, message, (geometry,), "count")
             continue
         if vcount is None:
             continue
@@ -110,52 +119,29 @@ def _lists(context: Context, rows: Rows, name: str) -> dict[int, tuple[int, Arra
     found = context.children(rows, name, IntegerRows)
     assert found.ordinals is not None
     return {
-        owner: (element, found.value[place])
+        owner: (element, counted(found.value[place]))
         for place, (owner, element) in enumerate(
             zip(found.owner.tolist(), found.ordinals.tolist(), strict=True)
         )
     }
 
 
-def _vertex_count(context: Context, controller: int, depth: int = 0) -> int | None:
-    """How many vertices the geometry of a skin or morph has."""
-    target = context.target(context.columns.attribute_of(controller, "source"))
-    if target < 0 or depth > 8:
-        return None
-    if context.name(target) == "controller":
-        inner = context.first_children("skin", "morph").get(target, -1)
-        return _vertex_count(context, inner, depth + 1) if inner >= 0 else None
-    return geometry_size(context, target)
-
-
-def _short_vertices(context: Context, controller: int, wanted: int) -> Hit | None:
-    """What to say where only an accessor of the geometry of a skin or morph lacks vertices."""
-    geometry = geometry_of(context, context.columns.attribute_of(controller, "source"))
-    return _short_positions(context, geometry, wanted)
-
-
-def _short_positions(context: Context, geometry: int, wanted: int) -> Hit | None:
-    vertices = context.shared(_vertices).get(geometry)
-    row = -1 if vertices is None else inputs_of(context).named(vertices, "POSITION")
-    return None if row < 0 else inputs_of(context).short(row, wanted)
-
-
-def geometry_size(context: Context, geometry: int) -> int | None:
-    """How many vertices a geometry has; None where that cannot be told."""
+def geometries(context: Context) -> Iterator[Hit]:
+    """Geometries with other vertices than all the skins and morphs of them are for."""
     inputs = inputs_of(context)
-    known = context.shared(_vertices)
-    vertices = known.get(geometry)
-    if vertices is None:
-        return None
-    row = inputs.named(vertices, "POSITION")
-    return None if row < 0 or row in unfit_inputs(context) else inputs.count(row)
-
-
-def _vertices(context: Context) -> dict[int, int]:
-    """The vertices of each geometry."""
-    elements = context.ordinals("vertices")
-    around = context.ancestor(elements, "geometry")
-    return dict(zip(around.tolist(), elements.tolist(), strict=True))
+    for geometry, (wanted, users) in odd_geometries(context).items():
+        row = positions_of(context, geometry)
+        if short := inputs.short(row, wanted):
+            yield short
+            continue
+        skinned = any(context.name(user) == "vertex_weights" for user in users)
+        rule = animation_rules.SKIN_COUNT if skinned else animation_rules.MORPH_TARGETS
+        message = (
+            f"{context.label(geometry)} has {inputs.count(row)} vertices, but its skins and "
+            f"morphs are for {wanted}."
+        )
+        accessor = int(sources_of(context).accessors[inputs.behind[row]])
+        yield Hit(rule, accessor, message, (geometry, *users[:3]), "count")
 
 
 def joints(context: Context) -> Iterator[Hit]:
@@ -197,11 +183,14 @@ def joints(context: Context) -> Iterator[Hit]:
                 message = f"The joint {context.label(strange[0])} is not a <node>."
                 yield Hit(WRONG_TYPE, array, message, (strange[0],), severity=Severity.WARNING)
         elif context.name(array) == "Name_array":
+            controller = int(context.parent[context.parent[element]])
+            if controller in context.shared(_lost_skeletons):
+                continue  # that there is no such skeleton is told
             lost = [word for word in words if word not in sids]
             if lost:
                 yield Hit(animation_rules.SKIN_JOINT, array, f"No node has the sid {listed(lost)}.")
                 continue
-            mine = skeletons.get(int(context.parent[context.parent[element]]))
+            mine = skeletons.get(controller)
             lost = [] if mine is None else [word for word in words if word not in mine]
             if lost:
                 message = f"No node of the skeleton has the sid {listed(lost)}."
@@ -210,6 +199,18 @@ def joints(context: Context) -> Iterator[Hit]:
         if twice and context.name(array) != "IDREF_array":
             message = f"The joint {listed(twice)} is there more than once."
             yield Hit(animation_rules.SKIN_JOINT_TWICE, array, message)
+
+
+def _lost_skeletons(context: Context) -> frozenset[int]:
+    """The controllers with an instance whose skeleton is no node of the document."""
+    roots = context.rows(TextRows, "skeleton")
+    if not len(roots):
+        return frozenset()
+    assert roots.ordinals is not None
+    targets = context.targets(text.strip() for text in roots.value)
+    lost = roots.ordinals[~context.is_named(targets, "node")]
+    instances = context.at(Rows, np.unique(context.parent[lost]))
+    return frozenset(context.targets(context.texts(instances, "url")).tolist())
 
 
 def _skeletons(context: Context) -> dict[int, set[str] | None]:
@@ -301,21 +302,24 @@ def morphs(context: Context) -> Iterator[Hit]:
             yield Hit(MISSING, array, f"There is no geometry of the id {listed(lost)}.",
                       severity=Severity.WARNING)  # fmt: skip
             continue
-        size = _vertex_count(context, int(context.parent[element]))
+        odd = odd_geometries(context)
+        geometry = base_of(context, int(context.parent[element]))
+        size = None if geometry in odd else geometry_size(context, geometry)
         for word, target in zip(words, found, strict=True):
             other = geometry_size(context, target)
             if context.name(target) not in ("geometry", "controller"):
                 message = f"The target {word!r} is a <{context.name(target)}>, not a <geometry>."
                 yield Hit(WRONG_TYPE, array, message, (target,), severity=Severity.WARNING)
                 break
-            if size is not None and other is not None and other != size:
-                short = _short_positions(context, target, size)
-                if short := short or _short_vertices(context, int(context.parent[element]), other):
+            if size is not None and other is not None and other != size and target not in odd:
+                short = short_positions(context, target, size)
+                if short := short or short_positions(context, geometry, other):
                     yield short
                     break
                 message = f"The target {word!r} has {other} vertices, the geometry {size}."
-                yield Hit(animation_rules.MORPH_TARGETS, array, message, (element, target))
+                yield Hit(animation_rules.MORPH_TARGETS, array, message,
+                          (element, target, geometry))  # fmt: skip
                 break
 
 
-CHECKS = (weights, joints, matrices, morphs)
+CHECKS = (geometries, weights, joints, matrices, morphs)

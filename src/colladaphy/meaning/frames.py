@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -59,7 +60,7 @@ class _Placed:
                 if targets[row] < 0 or around[row] not in nodes.chain(int(targets[row]))
             ], np.int64)  # fmt: skip
             poses.put(rows, self.of_nodes(around[rows]).then(poses.take(rows)))
-        self.poses = poses
+        self.poses, self.elements = poses, instances
         keys = models * len(bodies.elements) + mine
         self._order = np.argsort(keys, kind="stable")
         self._keys = keys[self._order]
@@ -123,30 +124,58 @@ def frames(context: Context) -> Iterator[Hit]:
         np.linalg.norm(one.positions - two.positions, axis=1),
         *(np.linalg.norm(table.frames[side].positions[rows], axis=1) for side in (0, 1)),
     ], axis=0)  # fmt: skip
-    told: set[int] = set()
+    told: dict[int, tuple[int, Hit]] = {}
     for place in np.flatnonzero(gap > _GAP * size).tolist():
         row = int(rows[place])
         if row in told:
             continue
-        told.add(row)
         message = (
             f"The frames of {context.label(int(table.elements[row]))} are {gap[place]:.3g} further "
             "apart at time 0 than its limits allow."
         )
-        yield Hit(physics_rules.FRAMES_APART, int(table.attachments[row, 1]), message,
-                  (int(table.attachments[row, 0]),))  # fmt: skip
+        beside = _beside(table, placed, row, instances[place])
+        told[row] = place, Hit(physics_rules.FRAMES_APART, int(table.attachments[row, 1]),
+                               message, beside)  # fmt: skip
     low, high = (column[rows] for column in _freed(*limits_of(context, "swing_cone_and_twist")))
     for place, excess in _turned(between.orientations, low, high):
         row = int(rows[place])
         if row in told:
             continue
-        told.add(row)
         message = (
             f"The frames of {context.label(int(table.elements[row]))} are turned {excess:.3g} "
             "degrees further at time 0 than its limits allow."
         )
-        yield Hit(physics_rules.FRAMES_TURNED, int(table.attachments[row, 1]), message,
-                  (int(table.attachments[row, 0]),))  # fmt: skip
+        beside = _beside(table, placed, row, instances[place])
+        told[row] = place, Hit(physics_rules.FRAMES_TURNED, int(table.attachments[row, 1]),
+                               message, beside)  # fmt: skip
+    if told:
+        yield from _by_bodies(instances, dict(told.values()))
+
+
+def _beside(table: Constraints, placed: _Placed, row: int, ends: Array) -> tuple[int, ...]:
+    """The other attachment of a joint, and the instances of the bodies that it holds."""
+    return (int(table.attachments[row, 0]), *placed.elements[ends[ends >= 0]].tolist())
+
+
+def _by_bodies(instances: Array, told: dict[int, Hit]) -> Iterator[Hit]:
+    """What is told of joints between instances (n, 2), by their places in these.
+
+    Where all joints of a body, which are several, are so, it is the body that stands elsewhere,
+    and it is told once.
+    """
+    everywhere = np.bincount(instances[instances >= 0])
+    mine = instances[list(told)]
+    here = np.bincount(mine[mine >= 0], minlength=len(everywhere))
+    joints = np.append(np.where((here == everywhere) & (here > 1), here, 0), 0)
+    groups: dict[tuple[bool, int], list[Hit]] = {}
+    for place, hit in told.items():
+        ends = instances[place]
+        end = int(ends[joints[ends].argmax()])
+        key = (True, end) if joints[end] else (False, place)
+        groups.setdefault(key, []).append(hit)
+    for hits in groups.values():
+        more = f" So are those of {len(hits) - 1} more joints of its bodies."
+        yield replace(hits[0], message=hits[0].message + (more if len(hits) > 1 else ""))
 
 
 def _turned(orientations: Array, low: Array, high: Array) -> Iterator[tuple[int, float]]:

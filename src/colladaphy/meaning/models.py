@@ -212,7 +212,8 @@ def named_parts(context: Context) -> Iterator[Hit]:
             if model and parts.named(*model, other, text.rpartition("/")[2]) is not None:
                 message = f"{text!r} is a <{other}> of the model {url!r}, not a <{kind}>."
             attribute = "body" if kind == "rigid_body" else "constraint"
-            yield Hit(MISSING, int(found.elements[row]), message, (), attribute)
+            beside = (model[1],) if model and model[0] is home else ()
+            yield Hit(MISSING, int(found.elements[row]), message, beside, attribute)
 
 
 def constraints_once(context: Context) -> Iterator[Hit]:

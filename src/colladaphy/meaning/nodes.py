@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -84,12 +85,25 @@ def _cancels(context: Context, nodes: Nodes, target: int) -> bool:
 
 def placed(context: Context) -> Iterator[Hit]:
     """Bodies whose nodes stand in several places, within each other, or are not theirs alone."""
-    yield from context.shared(_placed)
+    shared: dict[tuple[int, int], list[Hit]] = {}
+    for hit in context.shared(_placed):
+        if hit.rule is not physics_rules.NODE_SHARED:
+            yield hit
+            continue
+        first, own = (int(context.parent[each]) for each in (hit.related[0], hit.element))
+        # Within one instance of a model, each body is a fault of its own.
+        shared.setdefault((first, own if own != first else -hit.element), []).append(hit)
+    for hits in shared.values():
+        more = f" {len(hits) - 1} more bodies of this model's instance are so."
+        yield replace(hits[0], message=hits[0].message + (more if len(hits) > 1 else ""))
 
 
 def doubtful(context: Context) -> set[int]:
     """Instances of bodies of which it cannot be told where they stand, as is told already."""
-    return {hit.element for hit in context.shared(_placed)}
+    found = {hit.element for hit in context.shared(_placed)}
+    # Which of two bodies a node is the other's is not known.
+    return found | {hit.related[0] for hit in context.shared(_placed)
+                    if hit.rule is physics_rules.NODE_SHARED}  # fmt: skip
 
 
 def _placed(context: Context) -> list[Hit]:

@@ -14,6 +14,7 @@ from colladaphy.findings import Finding, Severity
 from colladaphy.links.names import COLLADA, PE
 from colladaphy.meaning import profile_rules
 from colladaphy.meaning.context import Context, TextRows
+from colladaphy.meaning.counterparts import counterparts
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.links import reference_hits
 from colladaphy.meaning.profile_table import profile_of
@@ -140,13 +141,17 @@ def numbers(context: Context) -> Iterator[Hit]:
         bad = np.isnan(values.values) if name in _NUMBERS else ~np.isfinite(values.values)
         if bad.any():
             owner = np.searchsorted(values.offsets, np.flatnonzero(bad), side="right") - 1
-            for row in distinct(owner).tolist():
+            rows = distinct(owner)
+            beside = counterparts(context, elements[rows])
+            for row, related in zip(rows.tolist(), beside, strict=True):
                 shown = " ".join(f"{value:g}" for value in values[row].tolist())
-                yield Hit(profile_rules.NUMBER, int(elements[row]), f"<pe:{name}> is {shown}.")
+                message = f"<pe:{name}> is {shown}."
+                yield Hit(profile_rules.NUMBER, int(elements[row]), message, related)
         if name == "normal":
             flat = ~values.values.reshape(-1, 3).any(axis=1)
-            for element in elements[flat].tolist():
-                yield Hit(profile_rules.VALUE, element, "The normal is 0 0 0.")
+            flat = elements[flat]
+            for element, related in zip(flat.tolist(), counterparts(context, flat), strict=True):
+                yield Hit(profile_rules.VALUE, element, "The normal is 0 0 0.", related)
         if name == "orientation":
             table = values.values.reshape(-1, 4)
             for element in elements[~table.any(axis=1)].tolist():
@@ -162,18 +167,22 @@ def ranges(context: Context) -> Iterator[Hit]:
             continue
         lists = profile.lists(name)
         low = lists.values < 0.0 if least == 0.0 else lists.values <= 0.0
-        for row in distinct(
-            np.searchsorted(lists.offsets, np.flatnonzero(low), side="right") - 1
-        ).tolist():
+        rows = distinct(np.searchsorted(lists.offsets, np.flatnonzero(low), side="right") - 1)
+        beside = counterparts(context, elements[rows])
+        for row, related in zip(rows.tolist(), beside, strict=True):
             shown = " ".join(f"{value:g}" for value in lists[row].tolist())
-            yield Hit(profile_rules.VALUE, int(elements[row]), f"<pe:{name}> is {shown}.")
+            message = f"<pe:{name}> is {shown}."
+            yield Hit(profile_rules.VALUE, int(elements[row]), message, related)
     for name, (least, most) in _OF_MATERIALS.items():
         elements, _, values = profile.values(name, 1, "material")
-        for row in np.flatnonzero((values[:, 0] < least) | (values[:, 0] > most)).tolist():
+        rows = np.flatnonzero((values[:, 0] < least) | (values[:, 0] > most))
+        beside = counterparts(context, elements[rows])
+        for row, related in zip(rows.tolist(), beside, strict=True):
             message = (
                 f"<pe:{name}> is {values[row, 0]:g}; loading takes the nearest value there is."
             )
-            yield Hit(profile_rules.VALUE, int(elements[row]), message, severity=Severity.WARNING)
+            yield Hit(profile_rules.VALUE, int(elements[row]), message, related,
+                      severity=Severity.WARNING)  # fmt: skip
     tensors, _, values = profile.values("inertia", 9, "body", "shape", "union")
     sizes = np.abs(values).max(axis=1, initial=0.0)
     some = np.flatnonzero((sizes > 0.0) & (sizes < np.inf))
@@ -181,17 +190,21 @@ def ranges(context: Context) -> Iterator[Hit]:
     moments = np.linalg.eigvalsh((matrices + matrices.transpose(0, 2, 1)) / 2.0)
     one, two, three = moments.T
     wrong = (one < -1e-9 * np.abs(three)) | (one + two < three * (1.0 - 1e-3))
-    for row in np.flatnonzero(wrong).tolist():
+    rows = np.flatnonzero(wrong)
+    beside = counterparts(context, tensors[some[rows]])
+    for row, related in zip(rows.tolist(), beside, strict=True):
         shown = " ".join(f"{moment * sizes[some[row]]:g}" for moment in moments[row])
         message = f"The principal moments of inertia are {shown}."
-        yield Hit(profile_rules.VALUE, int(tensors[some[row]]), message)
+        yield Hit(profile_rules.VALUE, int(tensors[some[row]]), message, related)
     for name in ("linear_limits", "angular_limits"):
         lower, around, low_values = profile.values("min", 3, name)
         _, _, high_values = profile.values("max", 3, name)
-        for row in np.flatnonzero((low_values > high_values).any(axis=1)).tolist():
+        rows = np.flatnonzero((low_values > high_values).any(axis=1))
+        beside = counterparts(context, lower[rows])
+        for row, related in zip(rows.tolist(), beside, strict=True):
             shown = " ".join(f"{value:g}" for value in low_values[row].tolist())
             message = f"The lower limits are {shown}, above the upper ones."
-            yield Hit(profile_rules.VALUE, int(lower[row]), message, (int(around[row]),))
+            yield Hit(profile_rules.VALUE, int(lower[row]), message, (int(around[row]), *related))
 
 
 def pairs(context: Context) -> Iterator[Hit]:

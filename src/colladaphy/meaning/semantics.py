@@ -169,14 +169,30 @@ def vertices(context: Context) -> Iterator[Hit]:
     firsts = inputs.first(inputs.owners[rows], "POSITION")
     counts, others = np.append(inputs.counts, -1)[firsts], inputs.counts[rows]
     unlike = (counts >= 0) & (others >= 0) & (counts != others)
+    strays: dict[int, list[int]] = {}
     for row, first in zip(rows[unlike].tolist(), firsts[unlike].tolist(), strict=True):
-        count, other = int(inputs.counts[first]), int(inputs.counts[row])
-        if short := inputs.short(row, count) or inputs.short(first, other):
-            yield short
+        strays.setdefault(first, []).append(row)
+    for first, found in strays.items():
+        count, other = int(inputs.counts[first]), int(inputs.counts[found[0]])
+        owned = inputs.of(int(inputs.owners[first]))
+        if len(found) > 1 and all(
+            int(inputs.counts[row]) == other for row in owned if row != first
+        ):
+            # It is the positions that are others than all the rest.
+            message = f"There are {count} positions, but {other} values of all other inputs."
+            yield inputs.short(first, other) or Hit(
+                geometry_rules.VERTEX_COUNT, int(inputs.elements[first]), message,
+                (int(table.accessors[inputs.sources[first]]),), "source",
+            )  # fmt: skip
             continue
-        message = f"There are {count} positions, but {other} values of {inputs.semantic(row)}."
-        yield Hit(geometry_rules.VERTEX_COUNT, int(inputs.elements[row]), message,
-                  (int(table.accessors[inputs.sources[row]]),), "source")  # fmt: skip
+        for row in found:
+            other = int(inputs.counts[row])
+            if short := inputs.short(row, count) or inputs.short(first, other):
+                yield short
+                continue
+            message = f"There are {count} positions, but {other} values of {inputs.semantic(row)}."
+            yield Hit(geometry_rules.VERTEX_COUNT, int(inputs.elements[row]), message,
+                      (int(table.accessors[inputs.sources[row]]),), "source")  # fmt: skip
 
 
 def names(context: Context) -> Iterator[Hit]:
@@ -196,7 +212,8 @@ def names(context: Context) -> Iterator[Hit]:
     rows = np.flatnonzero(inputs.are(*tangents) & (inputs.sources >= 0))
     several = set(table.accessors[inputs.sources[rows]].tolist())
     for row in doubtful.tolist():
-        if int(accessors.elements[row]) in several:
+        accessor = int(accessors.elements[row])
+        if accessor in several or _are_tangents(context, accessor, accessors.params_of(row)):
             continue
         seen: dict[str, int] = {}
         for name, _, element in accessors.params_of(row):
@@ -204,6 +221,15 @@ def names(context: Context) -> Iterator[Hit]:
             if name and first != element:
                 message = f"Another parameter of the accessor is named {name!r}."
                 yield Hit(geometry_rules.PARAM_TWICE, element, message, (first,), "name")
+
+
+def _are_tangents(context: Context, accessor: int, params: list[tuple[str, str, int]]) -> bool:
+    """Whether it reads tangents of keys, though no input that says so leads to it."""
+    names = [name for name, _, _ in params]
+    pair = names[:2]
+    if len(names) < 4 or names != pair * (len(names) // 2) or pair[0] == pair[1]:
+        return False
+    return int(context.ancestor(np.array([accessor]), "animation")[0]) >= 0
 
 
 CHECKS = (semantics, spellings, readable, vertices, names)

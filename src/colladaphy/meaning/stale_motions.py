@@ -80,7 +80,7 @@ def motions(context: Context) -> Iterator[Hit]:
 def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Array, Array]:
     """The frames of Worlds' bodies in their rigid_bodies, whether the place is known, planes.
 
-    The last is of which frames nothing is faulty.
+    The last is of which frames nothing is lacking or faulty.
 
     A body of one shape has the frame of that shape, one of several has its own.
     """
@@ -99,12 +99,17 @@ def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Arra
     single = np.searchsorted(holders, source, side="right") - begin == 1
     made = Poses.none(len(instances))
     known, flat = np.zeros(len(instances), np.bool_), np.zeros(len(instances), np.bool_)
-    clear = np.ones(len(instances), np.bool_)
+    clear = own | inherited  # a body that is not there is told
     mine = np.flatnonzero(single)
     shape = order[begin[mine]]
-    clear[mine] = ~np.isin(shapes.elements[shape], list(unclear_nodes(context)))
-    plane = np.isin(shape, context.children(shapes.rows, "plane", Rows).owner)
-    flat[mine[plane]] = True  # turned as its normal says
+    unclear = list(unclear_nodes(context))
+    if shapes.faults:  # how a rod is turned cannot be told of one that is none
+        sized = np.array([element for element, _, _ in shapes.faults], np.int64)
+        unclear += context.ancestor(sized, "shape").tolist()
+    clear[mine] = ~np.isin(shapes.elements[shape], unclear)
+    planes = context.children(shapes.rows, "plane", Rows).owner
+    flat |= np.isin(source, shapes.holders[planes])  # turned as its normal says
+    plane = np.isin(shape, planes)
     mine, shape = mine[~plane], shape[~plane]
     # The body of a mesh stands at its centre of mass.
     is_mesh = np.zeros(len(shapes.elements), np.bool_)

@@ -10,7 +10,7 @@ import numpy as np
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
-from colladaphy.meaning.inputs import inputs_of
+from colladaphy.meaning.inputs import PRIMITIVES, inputs_of
 from colladaphy.meaning.semantics import unfit_inputs
 from colladaphy.meaning.source_table import sources_of
 
@@ -48,6 +48,8 @@ def normals(context: Context) -> Iterator[Hit]:
         if source in seen or row in unfit:
             continue
         owner = int(inputs.owners[row])
+        if context.name(owner) not in (*PRIMITIVES, "vertices"):
+            continue  # there it means nothing, and that is told
         if context.name(owner) == "vertices" and inputs.named(owner, "POSITION") < 0:
             continue  # the semantic may be wrong, and that is told
         seen.add(source)

@@ -1,0 +1,251 @@
+"""What follows from another finding, and goes with it: one fault is told once, at its cause.
+
+A rule looks at its own subject alone. Where a fault breaks what several of them hold, this says
+which of the findings is at the cause.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any, Final, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from colladaphy.findings import Finding, Rule, Severity
+from colladaphy.links.rules import MISSING, WRONG_TYPE
+from colladaphy.meaning import (
+    animation_rules,
+    geometry_rules,
+    kinematics_rules,
+    link_rules,
+    physics_rules,
+    profile_rules,
+)
+from colladaphy.meaning.context import Context
+from colladaphy.meaning.hits import Hit
+
+__all__ = ["FOLLOWING", "Following", "without_consequences"]
+
+Array = NDArray[Any]
+
+
+class Following(NamedTuple):
+    """Findings of some rules that follow from those of others."""
+
+    rules: tuple[Rule, ...]
+    causes: tuple[Rule, ...]
+    within: tuple[str, ...] = ()
+    """Both are at, or in, one element of such a name; at the same element where there is none."""
+    beside: bool = False
+    """What counts is where an element stands that the finding names beside its own."""
+    causes_beside: bool = False
+    """The same of the causes, besides where they stand themselves."""
+    at: tuple[str, ...] = ()
+    """Only causes at elements of such names."""
+
+
+_BODIES = ("rigid_body", "instance_rigid_body")
+_PRIMITIVES = ("lines", "linestrips", "polygons", "polylist", "triangles", "trifans", "tristrips")
+_OWNERS = (*_PRIMITIVES, "vertices", "control_vertices", "joints", "vertex_weights", "targets",
+           "sampler")  # fmt: skip
+_OF_ACCESSORS = (geometry_rules.ACCESSOR_STRIDE, geometry_rules.ACCESSOR_RANGE)
+_OF_INPUTS = (WRONG_TYPE, geometry_rules.INPUT_VALUES, geometry_rules.INPUT_MISSING,
+              geometry_rules.INPUT_TWICE, geometry_rules.INDEX_LACKING,
+              geometry_rules.PRIMITIVE_COUNT)  # fmt: skip
+FOLLOWING: Final = (
+    # What the profile keeps is that of a value which is none itself, or is not compared with one.
+    Following(
+        (profile_rules.OLD_VALUE, profile_rules.NUMBER, profile_rules.VALUE),
+        physics_rules.RULES,
+        beside=True,
+    ),
+    # A node that is another body's stands elsewhere.
+    Following(
+        (profile_rules.OLD_VALUE,), (physics_rules.NODE_SHARED,), ("instance_rigid_body",),
+        causes_beside=True,
+    ),
+    Following(
+        (profile_rules.OLD_VALUE,), (physics_rules.FRAMES_APART, physics_rules.FRAMES_TURNED),
+        ("instance_rigid_body",), causes_beside=True,
+    ),
+    Following(
+        (profile_rules.SYSTEM_ID,), (profile_rules.TWICE, profile_rules.UNION),
+        ("rigid_body", "rigid_constraint"),
+    ),
+    Following(
+        (profile_rules.SYSTEM_ID,),
+        (link_rules.DUPLICATE_SID,),
+        ("rigid_body", "rigid_constraint"),
+        at=("rigid_body", "rigid_constraint"),
+    ),
+    # One of two of a name is what nobody is called.
+    Following(
+        (MISSING,),
+        (link_rules.DUPLICATE_SID,),
+        ("physics_model",),
+        at=("rigid_body", "rigid_constraint"),
+    ),
+    Following(
+        (MISSING,),
+        (link_rules.DUPLICATE_SID,),
+        ("physics_model",),
+        beside=True,
+        at=("rigid_body", "rigid_constraint"),
+    ),
+    Following((link_rules.TEXTURE_SAMPLER,), (link_rules.DUPLICATE_SID,), ("effect",)),
+    Following(
+        (kinematics_rules.JOINT_TWICE, kinematics_rules.AXIS_TWICE),
+        (link_rules.DUPLICATE_SID,), ("link", "axis_info"), at=("link", "axis_info"),
+    ),
+    # With a mass, or a size, that is wrong or has changed there is nothing to compare with.
+    Following(
+        (physics_rules.INERTIA_SIZE,),
+        (physics_rules.MASS_DENSITY, physics_rules.MASS_SUM, profile_rules.OLD_VALUE),
+        _BODIES,
+    ),
+    Following((physics_rules.MASS_SUM,), (physics_rules.MASS_DENSITY,), _BODIES),
+    # Values that are read in another way than they were written.
+    Following((geometry_rules.PARAM_TWICE,), (geometry_rules.ACCESSOR_STRIDE,), ("accessor",)),
+    Following((geometry_rules.PARAM_TYPE,), _OF_ACCESSORS, ("accessor",)),
+    Following(
+        (geometry_rules.INPUT_VALUES, animation_rules.OUTPUT_WIDTH),
+        (*_OF_ACCESSORS, geometry_rules.PARAM_TYPE),
+        ("accessor",),
+        beside=True,
+    ),
+    # Inputs that are others than was meant, and what is compared with what they lead to.
+    Following((WRONG_TYPE, geometry_rules.INPUT_VALUES), (geometry_rules.INPUT_TWICE,)),
+    Following((animation_rules.INTERPOLATION,), (geometry_rules.INPUT_TWICE,), _OWNERS),
+    Following(
+        (geometry_rules.VERTEX_COUNT, animation_rules.SKIN_INDEX, animation_rules.SKIN_SUM,
+         animation_rules.SKIN_WEIGHT, animation_rules.SKIN_BIND, animation_rules.KEY_COUNT,
+         animation_rules.MORPH_TARGETS),
+        (WRONG_TYPE, geometry_rules.INPUT_VALUES, geometry_rules.INPUT_MISSING,
+         geometry_rules.INPUT_TWICE),
+        _OWNERS,
+    ),
+    Following(
+        (animation_rules.OUTPUT_WIDTH,),
+        (animation_rules.KEY_COUNT, geometry_rules.INPUT_MISSING, geometry_rules.INPUT_TWICE,
+         geometry_rules.INPUT_VALUES),
+        ("sampler",),
+        beside=True,
+    ),
+    Following(
+        (link_rules.VERTEX_INPUT,), (*_OF_INPUTS, geometry_rules.INDEX_RANGE), _PRIMITIVES,
+        beside=True,
+    ),
+    Following((geometry_rules.INDEX_RANGE,), _OF_INPUTS, _PRIMITIVES),
+    Following((geometry_rules.FEW_CORNERS,), (geometry_rules.VCOUNT,)),
+    Following((geometry_rules.INPUT_TWICE,), (geometry_rules.INPUT_MISSING,), _OWNERS),
+    # A geometry with other vertices than its skins and morphs were made for.
+    Following(
+        (animation_rules.SKIN_COUNT, animation_rules.MORPH_TARGETS),
+        (geometry_rules.INDEX_RANGE, geometry_rules.VERTEX_COUNT),
+        ("geometry",),
+    ),
+    Following(
+        (animation_rules.SKIN_COUNT, animation_rules.MORPH_TARGETS),
+        (geometry_rules.INDEX_RANGE, geometry_rules.VERTEX_COUNT),
+        ("geometry",),
+        beside=True,
+    ),
+)  # fmt: skip
+"""What follows from what. What is gone is no cause any more, so that something is always left."""
+
+
+def without_consequences(context: Context, hits: Sequence[Hit | Finding]) -> list[Hit | Finding]:
+    """What was found, but for what follows from other findings.
+
+    Of a finding that stays for another the severity is that of the graver one.
+    """
+    made = list(hits)
+    by_code: dict[str, list[int]] = {}
+    for number, hit in enumerate(made):
+        if isinstance(hit, Hit):
+            by_code.setdefault(hit.rule.code, []).append(number)
+    gone: set[int] = set()
+    for each in FOLLOWING:
+        following = _numbers(by_code, each.rules)
+        causes = _numbers(by_code, each.causes) if following else []
+        if causes:
+            found = _let_follow(context, each, made, following, causes)
+            gone |= found
+            for rule in each.rules if found else ():
+                left = by_code.get(rule.code, ())
+                by_code[rule.code] = [number for number in left if number not in found]
+    return [hit for number, hit in enumerate(made) if number not in gone] if gone else made
+
+
+def _numbers(by_code: dict[str, list[int]], rules: tuple[Rule, ...]) -> list[int]:
+    return [number for rule in rules for number in by_code.get(rule.code, ())]
+
+
+def _let_follow(
+    context: Context,
+    each: Following,
+    hits: list[Hit | Finding],
+    following: list[int],
+    causes: list[int],
+) -> set[int]:
+    """The numbers of the hits that go; their causes become as grave as they."""
+    by_place: dict[int, int] = {}
+    for number, place in _placed(context, each, hits, causes, True, each.causes_beside, each.at):
+        by_place.setdefault(place, number)
+    found: set[int] = set()
+    for number, place in _placed(context, each, hits, following, not each.beside, each.beside):
+        if place < 0 or place not in by_place or number in found:
+            continue
+        found.add(number)
+        cause, hit = _hit(hits, by_place[place]), _hit(hits, number)
+        graver = max(_severity(cause), _severity(hit), key=_GRAVE.index)
+        if graver is not _severity(cause):
+            hits[by_place[place]] = replace(cause, severity=graver)
+    return found
+
+
+def _hit(hits: list[Hit | Finding], number: int) -> Hit:
+    hit = hits[number]
+    assert isinstance(hit, Hit)
+    return hit
+
+
+_GRAVE: Final = (Severity.HINT, Severity.WARNING, Severity.ERROR)
+
+
+def _severity(hit: Hit) -> Severity:
+    return hit.severity or hit.rule.severity
+
+
+def _placed(
+    context: Context,
+    each: Following,
+    hits: list[Hit | Finding],
+    numbers: list[int],
+    own: bool,
+    beside: bool,
+    at: tuple[str, ...] = (),
+) -> Iterator[tuple[int, int]]:
+    """Some hits with the places of their elements, of those beside them, or of both."""
+    owners: list[int] = []
+    wanted: list[int] = []
+    for number in numbers:
+        hit = _hit(hits, number)
+        mine = (*((hit.element,) if own else ()), *(hit.related if beside else ()))
+        owners += [number] * len(mine)
+        wanted += mine
+    elements = np.array(wanted, np.int64)
+    places = _places(context, elements, each.within)
+    if at:
+        places[~context.is_named(elements, *at)] = -1
+    return zip(owners, places.tolist(), strict=True)
+
+
+def _places(context: Context, elements: Array, names: tuple[str, ...]) -> Array:
+    """The elements (n,) themselves, or the nearest of some names at or around them; -1 for none."""
+    if not names or not len(elements):
+        return elements.copy()
+    around = context.ancestor(elements, *names)
+    return np.where(context.is_named(elements, *names), elements, around)
