@@ -263,6 +263,61 @@ def test_what_follows_from_a_fault_is_not_told(edit: tuple[str, str]) -> None:
     assert len(links) <= ("t w o" in edit[1])
 
 
+JOINED = (
+    DOCUMENT.replace(
+        "      </rigid_body>\n    </physics_model>",
+        """      </rigid_body>
+      <rigid_constraint sid="bound">
+        <ref_attachment/>
+        <attachment rigid_body="./two"/>
+        <technique_common/>
+      </rigid_constraint>
+    </physics_model>""",
+    )
+    .replace(
+        "      </instance_physics_model>",
+        '<instance_rigid_constraint constraint="bound"/></instance_physics_model>',
+    )
+    .replace("<box>", "<plane>")
+    .replace("</box>", "</plane>")
+    .replace("<half_extents>1 1 1</half_extents>", "<equation>0 1 0 0</equation>")
+    .replace("<mass>1</mass>", "<dynamic>false</dynamic>")
+)
+"""A body that is bound to the world at its own place, above a plane."""
+
+
+@pytest.mark.parametrize(
+    "edit",
+    [
+        # What nothing can be called is missed by what calls it.
+        ('<rigid_body sid="two">', "<rigid_body>"),
+        ('<rigid_constraint sid="bound">', "<rigid_constraint>"),
+        # What may not stand there is missed, too.
+        ('<node id="b"/>', '<nod id="b"/>'),
+        # Without a value that can be read nothing is said of what it would do.
+        ("<dynamic>false</dynamic>", "<dynamic>no</dynamic>"),
+        # Nor of where a joint is that has one end.
+        ("<ref_attachment/>", ""),
+    ],
+)
+def test_a_fault_of_form_is_one_finding(edit: tuple[str, str]) -> None:
+    moved = JOINED.replace('<node id="b"/>', '<node id="b"><translate>0 5 0</translate></node>')
+    text = moved if edit[0] == "<ref_attachment/>" else JOINED
+    assert found(JOINED.encode()) == []
+    assert edit[0] in text
+    told = found(text.replace(*edit).encode())
+    assert [finding.stage for finding in told] == ["schema"], told
+
+
+def test_a_source_without_an_id_is_one_finding() -> None:
+    text = BASES["visual"].read_text("utf-8").replace("wood.png", "")
+    before = [finding.code for finding in found(text.encode())]
+    told = found(text.replace('<source id="sheet-pos">', "<source>").encode())
+    assert [finding.code for finding in told if finding.code not in before] == [
+        "schema-missing-attribute"
+    ]
+
+
 @pytest.mark.parametrize("case", FAULTS + NEAR)
 def test_a_fault_of_form_hides_nothing(case: Case, tmp_path: Path) -> None:
     """With a fault of form elsewhere, everything is found that is found without it."""
@@ -394,6 +449,59 @@ def test_files_that_are_right_but_for_their_version(corpus_dir: Path) -> None:
     path = corpus_dir / "opencollada-check-schema.dae"
     report = colladaphy.validate(path, options=Options(collada_14=None))
     assert report.valid
+
+
+OLD_EFFECT = (
+    OLD.replace(
+        "  <library_physics_models>",
+        """  <library_images>
+    <image id="oak"><init_from>https://example.org/oak.png</init_from></image>
+  </library_images>
+  <library_effects>
+    <effect id="fx">
+      <profile_COMMON>
+        <newparam sid="face">
+          <surface type="2D">
+            <init_from>oak</init_from>
+          </surface>
+        </newparam>
+        <newparam sid="sampler">
+          <sampler2D>
+            <source>face</source>
+          </sampler2D>
+        </newparam>
+        <technique sid="common"><lambert/></technique>
+      </profile_COMMON>
+    </effect>
+  </library_effects>
+  <library_physics_models>""",
+        1,
+    )
+    .replace("<sphere>", "<tapered_cylinder>")
+    .replace("</sphere>", "</tapered_cylinder>")
+    .replace(
+        "<radius>-1</radius>",
+        "<height>1</height>\n<radius1>1 1</radius1>\n<radius2>0 0</radius2>",
+    )
+)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "code"),
+    [
+        ("<init_from>oak<", "<init_from>ash<", "link-missing"),
+        ("<init_from>oak<", "<init_from>fx<", "link-wrong-type"),
+        ("<source>face<", "<source>fece<", "link-missing"),
+        ("<height>1<", "<height>0<", "physics-shape-size"),
+        ("<radius1>1 1<", "<radius1>1 -1<", "physics-shape-size"),
+        ("<radius2>0 0<", "<radius2>0 INF<", "physics-shape-size"),
+    ],
+)
+def test_what_1_5_has_no_place_for_is_checked_too(old: str, new: str, code: str) -> None:
+    assert found(OLD_EFFECT.encode(), collada_14=None) == []
+    data = OLD_EFFECT.replace(old, new, 1).encode()
+    told = found(data, collada_14=None)
+    assert [(finding.code, finding.line) for finding in told] == [(code, line_of(data, new))]
 
 
 def test_no_namespace_at_all() -> None:

@@ -61,6 +61,7 @@ SUBJECTS: Final[dict[str, tuple[str, ...]]] = {
     "robots": ("axis_info", "attachment_full", "bind_joint_axis"),
     "kinematics": ("revolute", "prismatic", "axis_info"),
     "profile": ("technique",),
+    "profile_kinds": ("technique",),
     "staleness": ("technique",),
     "stale_motions": ("technique",),
     "stale_parts": ("technique",),

@@ -220,8 +220,7 @@ def pairs(context: Context) -> Iterator[Hit]:
                 if not np.isfinite(value):
                     yield Hit(profile_rules.NUMBER, element, f"The {key} is {value:g}.", (), key)
                 elif not least <= value <= most:
-                    yield Hit(profile_rules.VALUE, element, f"The {key} is {value:g}.", (), key,
-                              Severity.WARNING)  # fmt: skip
+                    yield Hit(profile_rules.VALUE, element, f"The {key} is {value:g}.", (), key)
 
 
 def links(context: Context) -> Iterator[Hit]:

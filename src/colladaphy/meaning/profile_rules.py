@@ -80,8 +80,8 @@ VALUE = Rule(
     "profile-value",
     Severity.ERROR,
     "A value of the pe profile is out of its range.",
-    "Masses and densities are not negative, sizes are positive, an inertia is that of a body, and "
-    "no lower limit is above the upper one.",
+    "Masses are not negative, densities and sizes are positive, an inertia is symmetric and that "
+    "of a body, and no lower limit is above the upper one.",
     "docs/pe-profile.md",
     "No World can hold it.",
 )
@@ -97,10 +97,10 @@ ENGINE_STATE = Rule(
 TWICE = Rule(
     "profile-twice",
     Severity.WARNING,
-    "The pe profile of an element is there twice.",
+    "The pe profile of an element, or a pair of materials, is there twice.",
     "Remove one of them.",
     "docs/pe-profile.md",
-    "The first one counts, and the other is not read.",
+    "Only one of them counts.",
 )
 
 RULES = (

@@ -47,10 +47,9 @@ def sizes(context: Context) -> Iterator[Hit]:
                 f"The equation of the plane is {shown}.",
             )
         elif bodies.moves[shapes.holders[row]]:
-            name = context.label(int(bodies.elements[shapes.holders[row]]))
-            yield Hit(
-                physics_rules.PLANE_MOVES, int(elements[place]), f"{name} moves, and is a plane."
-            )
+            body = int(bodies.elements[shapes.holders[row]])
+            message = f"{context.label(body)} moves, and is a plane."
+            yield Hit(physics_rules.PLANE_MOVES, int(elements[place]), message, (body,))
 
 
 def masses(context: Context) -> Iterator[Hit]:

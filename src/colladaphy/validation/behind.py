@@ -12,12 +12,14 @@ from dataclasses import dataclass, replace
 from lxml import etree
 
 from colladaphy.columns.reading import Document as Columns
+from colladaphy.conform.context import local
 from colladaphy.conform.kinds import FORM, UPGRADE
 from colladaphy.conform.versions import detect_version
 from colladaphy.findings import Finding
 from colladaphy.gate import rules
 from colladaphy.gate.faults import violations
 from colladaphy.links.resource import Resource
+from colladaphy.links.rules import MISSING
 from colladaphy.meaning import Hit, findings_of, hits_of
 from colladaphy.meaning.profile import strangers
 from colladaphy.meaning.profile_rules import NAMESPACE
@@ -25,7 +27,7 @@ from colladaphy.source import COLLADA_1_4, COLLADA_1_5
 from colladaphy.validation.apart import only, without
 from colladaphy.validation.copies import Copy
 from colladaphy.validation.mendable import with_repairs
-from colladaphy.validation.older import violations_1_4
+from colladaphy.validation.older import meant_1_4, violations_1_4
 from colladaphy.validation.options import HUGE, MANY, NOTHING_BEHIND, Options, is_large
 from colladaphy.validation.schema_stage import Found, schema_hits, with_schema_repairs
 from colladaphy.validation.touched import SEPARATORS, Touched, touched
@@ -41,7 +43,8 @@ COMPARED = frozenset(
     {"physics-inertia-size", "physics-inertia-zero", "physics-mass-zero", "physics-density-zero",
      "physics-mass-density", "physics-mass-sum", "physics-mass-frame", "physics-hollow",
      "physics-velocity-fixed", "physics-plane-moves", "physics-joint-fixed",
-     "physics-joint-target", "physics-material-frictions", "geometry-accessor-range",
+     "physics-joint-target", "physics-frames-apart", "physics-frames-turned",
+     "physics-material-frictions", "geometry-accessor-range",
      "geometry-accessor-stride", "geometry-index-range", "geometry-index-lacking",
      "geometry-primitive-count", "geometry-vcount", "geometry-normal", "geometry-vertex-count",
      "animation-skin-bind", "animation-skin-count", "animation-skin-index",
@@ -50,6 +53,16 @@ COMPARED = frozenset(
      "kinematics-transform", "profile-old-value", "profile-union"}
 )  # fmt: skip
 """Rules about one element that compare it with what stands beside it."""
+
+_NAMED_BY = {
+    "body": ("rigid_body",),
+    "constraint": ("rigid_constraint",),
+    "rigid_body": ("rigid_body", "physics_model"),
+    "target": ("node", "material"),
+    "parent": ("node",),
+    "source": ("source", "vertices", "sampler", "geometry", "controller"),
+}
+"""What references of an attribute lead to, where the element does not say it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +113,11 @@ def check_behind(came: Came, first: Found | None, options: Options) -> list[Find
         hits += schema_hits(current, first)
     start = Copy.of(current.tree)
     form = start.mended(FORM) if first else start
+    if _is_1_4(came.tree):
+        hits += [
+            Hit(rule, whole.by_element[element], message, (), severity=severity)
+            for element, rule, message, severity in meant_1_4(came.tree)
+        ]
     if first and violations(form.tree):
         return came.told(hits)  # it cannot be read
     mended = form.upon(current)
@@ -194,7 +212,11 @@ class _Ours:
             element = self._elements[hit.element]
             text = (element.get(hit.attribute) if hit.attribute else element.text) or ""
             names = text.translate(SEPARATORS).split()
-            return hit.element in self._changed or not self._done.names.isdisjoint(names)
+            if hit.element in self._changed or not self._done.names.isdisjoint(names):
+                return True
+            # What a reference misses may be what has no name of its own.
+            wanted = _NAMED_BY.get(hit.attribute, (local(element).removeprefix("instance_"),))
+            return hit.rule is MISSING and not self._done.nameless.isdisjoint(wanted)
         around = [hit.element, *hit.related]
         if hit.rule.code in COMPARED:
             above = self._parents.get(hit.element, -1)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 
@@ -41,20 +42,32 @@ class Touched:
     """Ids and sids that are not there any more."""
     moved: bool = False
     """Whether things may stand elsewhere now, or be of another size."""
+    nameless: frozenset[str] = frozenset()
+    """The names of elements that had no id, or no sid, and have one now."""
 
 
 def touched(before: Copy, after: Copy) -> Touched:
     """The elements whose meaning is not that of the document any more; `before` is that itself."""
     changed = _changed(before, after)
+    names = frozenset(_names(before.tree) - _names(after.tree))
     if not changed:
-        return Touched()
+        return Touched(names=names)
     elements = {number: element for element, number in before.by_element.items()}
     return Touched(
         frozenset(changed),
         frozenset(_spread(changed, elements, before)),
-        frozenset(_names(before.tree) - _names(after.tree)),
+        names,
         any(local(elements[number]) in _MOVING for number in changed),
+        frozenset(_nameless(changed, elements, after)),
     )
+
+
+def _nameless(changed: set[int], elements: dict[int, etree._Element], after: Copy) -> Iterator[str]:
+    """The names of changed elements that were not named themselves, and are now."""
+    now = {number: element for element, number in after.by_element.items() if number in changed}
+    for number, twin in now.items():
+        if any(twin.get(key) and not elements[number].get(key) for key in ("id", "sid")):
+            yield local(twin)
 
 
 def taken_out(whole: Copy, tops: set[int], gone: set[int]) -> Touched:
