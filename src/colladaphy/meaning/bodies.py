@@ -45,7 +45,7 @@ def masses(context: Context) -> Iterator[Hit]:
     # An instance may give the mass that the body has not.
     for row in np.flatnonzero(zero).tolist():
         mine = bodies.instances(row)
-        if len(mine) and bool(np.all(bodies.masses[mine] > 0.0)):
+        if len(mine) and bool(np.all((bodies.masses[mine] > 0.0) | wrong[mine])):
             continue
         message = f"{context.label(int(bodies.elements[row]))} moves, but its mass is 0."
         yield Hit(physics_rules.MASS_ZERO, int(bodies.mass_elements[row]), message)

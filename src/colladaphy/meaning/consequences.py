@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.findings import Finding, Rule, Severity
-from colladaphy.links.rules import MISSING, WRONG_TYPE
+from colladaphy.links.rules import MISSING, NOT_RIGID, WRONG_TYPE
 from colladaphy.meaning import (
     animation_rules,
     geometry_rules,
@@ -22,6 +22,7 @@ from colladaphy.meaning import (
     link_rules,
     physics_rules,
     profile_rules,
+    scene_rules,
 )
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
@@ -47,6 +48,7 @@ class Following(NamedTuple):
 
 
 _BODIES = ("rigid_body", "instance_rigid_body")
+_FRAMES = (physics_rules.FRAMES_APART, physics_rules.FRAMES_TURNED)
 _PRIMITIVES = ("lines", "linestrips", "polygons", "polylist", "triangles", "trifans", "tristrips")
 _OWNERS = (*_PRIMITIVES, "vertices", "control_vertices", "joints", "vertex_weights", "targets",
            "sampler")  # fmt: skip
@@ -67,8 +69,24 @@ FOLLOWING: Final = (
         causes_beside=True,
     ),
     Following(
-        (profile_rules.OLD_VALUE,), (physics_rules.FRAMES_APART, physics_rules.FRAMES_TURNED),
-        ("instance_rigid_body",), causes_beside=True,
+        (profile_rules.OLD_VALUE,), _FRAMES, ("instance_rigid_body",), causes_beside=True
+    ),
+    Following((profile_rules.OLD_VALUE,), _FRAMES, beside=True, causes_beside=True),
+    Following(
+        (profile_rules.OLD_VALUE,), (physics_rules.JOINT_LIMITS, physics_rules.JOINT_RADIANS),
+        ("rigid_constraint",),
+    ),
+    Following(
+        (profile_rules.OLD_VALUE,), (physics_rules.MATERIAL_FRICTIONS,), ("physics_material",)
+    ),
+    # Of a shape that is none it is not known how it stands.
+    Following(
+        (profile_rules.OLD_VALUE,), (physics_rules.SHAPE_SIZE, MISSING, WRONG_TYPE), ("shape",),
+        beside=True,
+    ),
+    Following((profile_rules.OLD_VALUE,), (profile_rules.VALUE,)),
+    Following(
+        (profile_rules.OLD_VALUE, physics_rules.MASS_SUM), (profile_rules.UNION,), ("rigid_body",)
     ),
     Following(
         (profile_rules.SYSTEM_ID,), (profile_rules.TWICE, profile_rules.UNION),
@@ -94,10 +112,22 @@ FOLLOWING: Final = (
         beside=True,
         at=("rigid_body", "rigid_constraint"),
     ),
-    Following((link_rules.TEXTURE_SAMPLER,), (link_rules.DUPLICATE_SID,), ("effect",)),
+    Following((link_rules.TEXTURE_SAMPLER, MISSING), (link_rules.DUPLICATE_SID,), ("effect",)),
+    # Whether two channels move at a time is not known without their clips.
+    Following(
+        (animation_rules.CHANNEL_TWICE,), (MISSING, WRONG_TYPE), ("COLLADA",),
+        at=("instance_animation",),
+    ),
+    Following(
+        (NOT_RIGID,), (scene_rules.SCALE_ZERO, scene_rules.TRANSFORM_NUMBER), ("node",)
+    ),
     Following(
         (kinematics_rules.JOINT_TWICE, kinematics_rules.AXIS_TWICE),
         (link_rules.DUPLICATE_SID,), ("link", "axis_info"), at=("link", "axis_info"),
+    ),
+    # A node that another would have shown.
+    Following(
+        (link_rules.NODE_NOWHERE,), (MISSING, WRONG_TYPE), ("COLLADA",), at=("instance_node",)
     ),
     # With a mass, or a size, that is wrong or has changed there is nothing to compare with.
     Following(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import replace
 
 from colladaphy.meaning import link_rules
 from colladaphy.meaning.context import Context, NamedRows
@@ -35,6 +36,7 @@ def symbols(context: Context) -> Iterator[Hit]:
         if not groups:
             continue
         seen: dict[str, int] = {}
+        strange: list[Hit] = []
         for material in bound.get(element, ()):
             symbol = context.columns.attribute_of(material, "symbol") or ""
             if symbol in seen:
@@ -44,9 +46,15 @@ def symbols(context: Context) -> Iterator[Hit]:
             seen[symbol] = material
             if symbol not in groups:
                 message = f"No primitive of {context.label(geometry)} has the material {symbol!r}."
-                yield Hit(link_rules.MATERIAL_SYMBOL, material, message, (geometry,), "symbol")
+                strange.append(
+                    Hit(link_rules.MATERIAL_SYMBOL, material, message, (geometry,), "symbol")
+                )
                 continue
             yield from _vertex_inputs(context, material, groups[symbol])
+        if len(strange) > 1 and len(strange) == len(seen):  # it is another geometry
+            more = f" Nor has any those of {len(strange) - 1} more instances."
+            strange = [replace(strange[0], message=strange[0].message + more)]
+        yield from strange
         if not seen.keys() <= groups.keys():
             continue  # a symbol is misspelled, and that is told
         for symbol, rows in groups.items():

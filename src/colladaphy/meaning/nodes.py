@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
@@ -46,11 +46,18 @@ def rigid(context: Context) -> Iterator[Hit]:
             continue
         for element in mine:
             users[element].append(instance)
+    several = Counter(int(context.parent[element]) for element in users)
+    told: set[int] = set()
     for element, instances in users.items():
-        name = context.name(element)
-        node = context.label(int(context.parent[element]))
+        place = int(context.parent[element])
+        if place in told:  # all transforms of a node are one
+            continue
+        told.add(place)
         done = stretch_of(_matrix(context, element))
-        message = f"The {name} of {node} {done}, and a body stands in it."
+        message = f"The {context.name(element)} of {context.label(place)} {done}, and a body "
+        message += "stands in it."
+        if several[place] > 1:
+            message += f" {several[place] - 1} more transforms of the node are not rigid."
         yield Hit(NOT_RIGID, element, message, (*instances[:3], *_bodies(context, instances[:3])))
 
 
@@ -154,7 +161,8 @@ def _apart(context: Context) -> Iterator[Hit]:
             continue
         for node in nodes.chain(target)[1:]:
             outer = movers.get((scene, node))
-            if outer is not None and bodies.moves[bodies.row(outer)]:
+            row = -1 if outer is None else bodies.row(outer)
+            if outer is not None and bodies.moves[row] and bodies.body[row] >= 0:
                 message = (
                     f"{context.label(target)} stands in {context.label(node)}, which another "
                     "body moves."

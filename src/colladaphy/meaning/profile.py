@@ -75,8 +75,9 @@ class _SystemIds(Rows):
 
 
 def places(context: Context) -> Iterator[Hit]:
-    """Elements of the profile where nobody reads them."""
+    """Elements of the profile where nobody reads them; a technique of another one is told once."""
     profile = profile_of(context)
+    told: set[int] = set()
     for name, expected in _PLACES.items():
         elements = profile.elements(name)
         techniques = context.ancestor(elements, "technique")
@@ -87,6 +88,9 @@ def places(context: Context) -> Iterator[Hit]:
         numbers, texts = context.columns.factorized(context.at(Rows, different), "profile")
         ours = np.array([text == "pe" for text in texts], np.bool_)[numbers][inverse.reshape(-1)]
         for row in np.flatnonzero(~ours).tolist():
+            if int(techniques[row]) in told:
+                continue
+            told.add(int(techniques[row]))
             other = texts[int(numbers[inverse[row]])]
             message = f"The technique is of the profile {other!r}."
             yield Hit(profile_rules.TECHNIQUE, int(elements[row]), message, (int(techniques[row]),))

@@ -42,6 +42,7 @@ _MESH = {
     "TEXCOORD": _Need((1, 2, 3, 4)),
     "COLOR": _Need((3, 4)),
 }
+_GRAVE = ("POSITION", "JOINT", "WEIGHT", "INV_BIND_MATRIX", "INPUT", "OUTPUT")
 _STANDARD = ("VERTEX", "UV", *_MESH)
 _NEEDS: dict[str, dict[str, _Need]] = {
     **dict.fromkeys((*PRIMITIVES, "vertices"), _MESH),
@@ -101,19 +102,19 @@ def _unlike(context: Context, rows: Array, semantic: str, need: _Need) -> Iterat
 
 
 def semantics(context: Context) -> Iterator[Hit]:
-    """Inputs whose values are of another kind."""
+    """Inputs whose values are of another kind; those of one source are told once."""
     inputs, table = inputs_of(context), sources_of(context)
-    told: set[tuple[int, str]] = set()
-    for row, message in unfit_inputs(context).items():
-        semantic = inputs.semantic(row)
-        key = (int(inputs.sources[row]), semantic)
-        if key in told:
+    told: set[int] = set()
+    unfit = unfit_inputs(context)
+    light = {row: inputs.semantic(row) not in _GRAVE for row in unfit}
+    for row in sorted(unfit, key=lambda row: (light[row], row)):
+        source = int(inputs.sources[row])
+        if source in told:
             continue
-        told.add(key)
-        grave = semantic in ("POSITION", "JOINT", "WEIGHT", "INV_BIND_MATRIX", "INPUT", "OUTPUT")
-        yield Hit(geometry_rules.INPUT_VALUES, int(inputs.elements[row]), message,
-                  (int(table.accessors[inputs.sources[row]]),), "source",
-                  Severity.ERROR if grave else Severity.WARNING)  # fmt: skip
+        told.add(source)
+        yield Hit(geometry_rules.INPUT_VALUES, int(inputs.elements[row]), unfit[row],
+                  (int(table.accessors[source]),), "source",
+                  Severity.WARNING if light[row] else Severity.ERROR)  # fmt: skip
 
 
 def readable(context: Context) -> Iterator[Hit]:

@@ -188,10 +188,11 @@ def materials(context: Context) -> Iterator[Hit]:
 
 
 def limits(context: Context) -> Iterator[Hit]:
-    """Limits of joints."""
+    """Limits of joints, of each joint once: where one is left behind, all may be."""
     profile = profile_of(context)
     constraints = context.rows(Rows, "rigid_constraint").ordinals
     assert constraints is not None
+    told: set[int] = set()
     for name, other, factor in (
         ("linear_limits", "linear", 1.0), ("angular_limits", "swing_cone_and_twist", DEGREE),
     ):  # fmt: skip
@@ -205,7 +206,10 @@ def limits(context: Context) -> Iterator[Hit]:
             wrong = ~crossed[mine].any(axis=1) & ~same(stated[at] * factor, values[mine])
             for place in np.flatnonzero(wrong).tolist():
                 what = f"{part} of the {name.replace('_', ' ')}"
-                row = at[place]
+                row = int(at[place])
+                if row in told:
+                    continue
+                told.add(row)
                 yield old(what, int(kept[mine[place]]), stated[row] * factor, values[mine[place]],
                           int(constraints[row]))  # fmt: skip
 
