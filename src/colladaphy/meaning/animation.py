@@ -47,6 +47,7 @@ def samplers(context: Context) -> Iterator[Hit]:
     # Effects have samplers too, in another namespace of names.
     elements = elements[context.is_within(elements, "animation")]
     inputs, table = inputs_of(context), sources_of(context)
+    told: set[int] = set()  # arrays, which several samplers may have
     for element in elements.tolist():
         counts: dict[str, int | None] = {}
         for row in inputs.of(element):
@@ -66,14 +67,16 @@ def samplers(context: Context) -> Iterator[Hit]:
         times = None if source < 0 else table.numbers(source)
         if times is not None and np.isfinite(times).all():
             steps = np.diff(times[:, 0])
-            if bool(np.any(steps <= 0.0)):
+            if bool(np.any(steps <= 0.0)) and int(table.arrays[source]) not in told:
+                told.add(int(table.arrays[source]))
                 place = int(np.flatnonzero(steps <= 0.0)[0])
                 message = f"Time {times[place + 1, 0]:g} comes after {times[place, 0]:g}."
                 yield Hit(animation_rules.KEY_ORDER, int(table.arrays[source]), message, (element,))
-        yield from _interpolations(context, element)
+        yield from _interpolations(context, element, told)
+        yield from _tangents(context, element)
 
 
-def _interpolations(context: Context, element: int) -> Iterator[Hit]:
+def _interpolations(context: Context, element: int, told: set[int]) -> Iterator[Hit]:
     inputs, table = inputs_of(context), sources_of(context)
     source = inputs.source(element, "INTERPOLATION")
     words = None if source < 0 else table.words(source)
@@ -82,7 +85,10 @@ def _interpolations(context: Context, element: int) -> Iterator[Hit]:
     array = int(table.arrays[source])
     known = _KNOWN if context.name(element) == "sampler" else _KNOWN | {"NURBS"}
     strange = sorted(set(words) - known)
+    if strange and array in told:
+        return
     if strange:
+        told.add(array)
         yield Hit(
             animation_rules.INTERPOLATION,
             array,
@@ -100,8 +106,28 @@ def _interpolations(context: Context, element: int) -> Iterator[Hit]:
 
 def splines(context: Context) -> Iterator[Hit]:
     """Splines whose interpolations are not known, or lack their tangents."""
+    told: set[int] = set()
     for element in context.ordinals("control_vertices").tolist():
-        yield from _interpolations(context, element)
+        yield from _interpolations(context, element, told)
+
+
+def _tangents(context: Context, element: int) -> Iterator[Hit]:
+    """Tangents of another width than the keys: as many values as these, one more, or twice."""
+    inputs, table = inputs_of(context), sources_of(context)
+    keys = inputs.source(element, "OUTPUT")
+    width = 0 if keys < 0 else int(table.steps[keys])
+    if not width or int(table.arrays[keys]) < 0:
+        return
+    for name in ("IN_TANGENT", "OUT_TANGENT"):
+        source = inputs.source(element, name)
+        if source < 0 or int(table.arrays[source]) < 0:
+            continue
+        found = int(table.steps[source])
+        if found not in (width, width + 1, 2 * width):
+            row = inputs.named(element, name)
+            message = f"Keys of {width} values have tangents of {found}."
+            yield Hit(animation_rules.TANGENT_WIDTH, int(inputs.elements[row]), message,
+                      (int(table.accessors[source]), element))  # fmt: skip
 
 
 def channels(context: Context) -> Iterator[Hit]:
@@ -114,7 +140,14 @@ def channels(context: Context) -> Iterator[Hit]:
         element, text = reference.element, reference.text.strip()
         found = addressed(context, text)
         if isinstance(found, str):
-            yield Hit(MISSING, element, found, (), "target", Severity.WARNING)
+            scope = context.target(text.partition("/")[0])
+            related = (scope,) if scope >= 0 else ()
+            yield Hit(MISSING, element, found, related, "target", Severity.WARNING)
+            continue
+        if text[:1] == "#":
+            message = f"{text!r} begins with '#', as addresses by scoped ids do not."
+            yield Hit(MISSING, element, message, (found[0],), "target", Severity.WARNING,
+                      f"Write {text[1:]!r}.")  # fmt: skip
             continue
         target, member = found
         name = context.name(target)
@@ -135,6 +168,8 @@ def channels(context: Context) -> Iterator[Hit]:
             yield Hit(animation_rules.CHANNEL_TWICE, element, message, (other,), "target")
             continue
         members, width = _MEMBERS.get(name, (None, 0))
+        if name == "source" and member:
+            members, width = frozenset(), _held(context, target)
         if member and members is not None and not _has(name, members, width, member):
             message = f"A <{name}> has no member {member!r}."
             yield Hit(link_rules.CHANNEL_MEMBER, element, message, (target,), "target")
@@ -167,6 +202,14 @@ class _Clips:
         if not found:
             return {self._ALWAYS}, {self._ALWAYS, self._SOME}
         return found | {self._SOME}, found | {self._ALWAYS}
+
+
+def _held(context: Context, source: int) -> int:
+    """How many values a source has; 0 where that is not known."""
+    table = sources_of(context)
+    row = int(table.rows_of(np.array([source]))[0])
+    count = None if row < 0 else table.count(row)
+    return int(table.steps[row]) * count if count else 0
 
 
 def _number(name: str, member: str) -> str:

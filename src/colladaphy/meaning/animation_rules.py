@@ -87,6 +87,14 @@ OUTPUT_WIDTH = Rule(
     "COLLADA 1.5 §channel",
     "The animation does nothing, or moves something else.",
 )
+TANGENT_WIDTH = Rule(
+    "animation-tangent-width",
+    Severity.WARNING,
+    "The tangents of a sampler have another number of values than its keys.",
+    "Give a tangent as many values as the key has, or one more: the time before them.",
+    "COLLADA 1.5 §sampler",
+    "The curve between the keys is another one, or is read past its end.",
+)
 CHANNEL_TWICE = Rule(
     "animation-channel-twice",
     Severity.WARNING,
@@ -130,6 +138,7 @@ SKIN_JOINT_TWICE = Rule(
 )
 
 RULES = (
+    TANGENT_WIDTH,
     SKIN_MATRIX,
     SKIN_JOINT_TWICE,
     SKIN_WEIGHT,

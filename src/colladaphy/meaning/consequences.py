@@ -122,6 +122,10 @@ FOLLOWING: Final = (
         (NOT_RIGID,), (scene_rules.SCALE_ZERO, scene_rules.TRANSFORM_NUMBER), ("node",)
     ),
     Following(
+        (MISSING,), (link_rules.DUPLICATE_SID,), ("node",), beside=True,
+        at=("matrix", "translate", "rotate", "scale", "skew", "lookat"),
+    ),
+    Following(
         (kinematics_rules.JOINT_TWICE, kinematics_rules.AXIS_TWICE),
         (link_rules.DUPLICATE_SID,), ("link", "axis_info"), at=("link", "axis_info"),
     ),

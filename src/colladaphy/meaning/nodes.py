@@ -20,6 +20,7 @@ from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.node_table import Nodes, nodes_of, odd_transforms
+from colladaphy_schema.rows import Rows
 from colladaphy_schema.scene_columns import NodeTypeRows
 
 __all__ = ["CHECKS", "doubtful"]
@@ -134,7 +135,7 @@ def _apart(context: Context) -> Iterator[Hit]:
     instances = np.array(sorted(nodes.targets), np.int64)
     if not len(instances):
         return
-    above = context.ancestor(instances, "physics_scene", "physics_model")
+    above = _scenes_of(context, instances)
     alone = not nodes.holders and not _nested(nodes)
     if alone:
         # Nearly always every body has a node of its own.
@@ -169,6 +170,35 @@ def _apart(context: Context) -> Iterator[Hit]:
                 )
                 yield Hit(physics_rules.BODIES_NESTED, instance, message, (outer, target), "target")
                 break
+
+
+def _scenes_of(context: Context, instances: Array) -> Array:
+    """The scene or model (n,) that instances of bodies stand in.
+
+    What stands in a model that is instanced once, and that in a scene, stands in that scene.
+    """
+    above = context.ancestor(instances, "physics_scene", "physics_model")
+    holders = context.rows(Rows, "instance_physics_model")
+    assert holders.ordinals is not None
+    outer = context.ancestor(holders.ordinals, "physics_scene", "physics_model")
+    inner = context.led("instance_physics_model", "url")
+    targets, counts = np.unique(inner[inner >= 0], return_counts=True)
+    once = set(targets[counts == 1].tolist())
+    around = {
+        model: scene
+        for model, scene in zip(inner.tolist(), outer.tolist(), strict=True)
+        if model in once
+    }
+    if not np.isin(above, list(around)).any():
+        return above
+    found = []
+    for model in above.tolist():
+        known: set[int] = set()
+        while model in around and model not in known:
+            known.add(model)
+            model = around[model]
+        found.append(model)
+    return np.array(found, np.int64)
 
 
 def _nested(nodes: Nodes) -> bool:

@@ -146,15 +146,23 @@ def _parameters(context: Context) -> dict[tuple[int, str], str]:
 
 
 def _axes(context: Context) -> dict[tuple[str, str], int]:
-    """The axes of joints by the sids of both, where these mean one only."""
+    """The axes of joints by the sids of both, or of an instance, where these mean one only."""
     rows = context.rows(NamedRows, "revolute", "prismatic")
     assert rows.ordinals is not None
     above = context.at(NamedRows, distinct(context.parent[rows.ordinals]))
     assert above.ordinals is not None
     names = dict(zip(above.ordinals.tolist(), above.sid, strict=True))
     found: defaultdict[tuple[str, str], list[int]] = defaultdict(list)
+    called: defaultdict[int, set[str | None]] = defaultdict(set)
+    instances = context.rows(NamedRows, "instance_joint")
+    assert instances.ordinals is not None
+    targets = context.led("instance_joint", "url")
+    for sid, joint in zip(instances.sid, targets.tolist(), strict=True):
+        called[joint].add(sid)
     for element, sid in zip(rows.ordinals.tolist(), rows.sid, strict=True):
-        found[names[int(context.parent[element])] or "", sid or ""].append(element)
+        joint = int(context.parent[element])
+        for name in {names[joint], *called.get(joint, ())}:
+            found[name or "", sid or ""].append(element)
     return {key: elements[0] for key, elements in found.items() if len(elements) == 1}
 
 
