@@ -38,6 +38,7 @@ def test_every_step_is_measured_against_the_first(tmp_path: Path) -> None:
 def test_every_kind_is_what_it_claims_to_be(name: str) -> None:
     data = document(6, name)
     assert data == document(6, name)
+    assert list(colladaphy.validate(data)) == []
     world = colladaphy.read(data).load()
     assert len(world.bodies) == 6
     plain = colladaphy.read(document(6)).load()

@@ -11,6 +11,7 @@ import numpy as np
 from lxml import etree
 
 import colladaphy
+from colladaphy.links.poses import Poses
 from colladaphy.world import Kind, World
 from colladaphy.world.columns import BodyColumns, JointColumns
 from colladaphy.world.materials import VALUES
@@ -101,6 +102,7 @@ def materials(count: int) -> World:
     world = _world()
     random = np.random.default_rng(count)
     values = {key: random.uniform(0.1, 0.4, count) for key in VALUES}
+    values["static_friction"] += values["dynamic_friction"]
     ids = world.materials.extend([f"m{number}" for number in range(count)], values)
     columns = bodies(Kind.SPHERE, count, world)
     columns.material_ids = ids
@@ -166,18 +168,26 @@ def joints(*, hinge: bool) -> Callable[[int], World]:
     """Spheres in a chain, each joined to the one before, the first one to the world."""
 
     def make(count: int) -> World:
-        world = primitives(Kind.SPHERE)(count)
+        world = _world()
+        columns = bodies(Kind.SPHERE, count, world)
+        world.extend(columns)
         random = np.random.default_rng(count + 1)
         limits = np.zeros((count, 2, 3))
         if hinge:
             limits[:, 0, 0], limits[:, 1, 0] = -random.random(count), random.random(count)
         ends = np.column_stack([np.arange(count), np.arange(1, count + 1)])
+        # The frames of both bodies meet, at some place near the second one.
+        outer = Poses.of(count + 1, np.vstack([np.zeros(3), columns.positions]),
+                         np.vstack([[1.0, 0.0, 0.0, 0.0], columns.orientations]))  # fmt: skip
+        places = outer.positions[1:] + random.standard_normal((count, 3))
+        meeting = Poses.of(count, places, _quaternions(random, count))
+        frames = [outer.take(each).inverse().then(meeting) for each in ends.T]
         world.extend_joints(
             JointColumns(
                 bodies=ends,
                 uids=np.arange(count),
-                positions=random.standard_normal((count, 2, 3)),
-                orientations=_quaternions(random, 2 * count).reshape(count, 2, 4),
+                positions=np.stack([each.positions for each in frames], axis=1),
+                orientations=np.stack([each.orientations for each in frames], axis=1),
                 angular_limits=limits,
             )
         )

@@ -16,6 +16,7 @@ import numpy as np
 import orjson
 from numpy.typing import NDArray
 
+from colladaphy.columns.spans import places_of
 from colladaphy.columns.words import LOW, Words
 
 __all__ = [
@@ -249,9 +250,8 @@ def _numbers(
 ) -> tuple[Array, Array | None]:
     if not len(ranges):
         return np.zeros(0, dtype), None
-    if dtype is np.float64 and (kept := ranges.all_words.kept(ranges.starts)) is not None:
-        found, every = kept
-        return found, None if every is None or bool(np.all(every == every[0])) else every
+    if dtype is np.float64 and (known := _known(ranges)) is not None:
+        return known
     if len(ranges) > 1 and ranges.all_equal():
         one, _ = _part(ranges.part(0, 1), dtype, parse, width)
         return np.tile(one, len(ranges)), None
@@ -267,6 +267,32 @@ def _numbers(
         return found, None
     every = np.concatenate(counts)
     return found, None if bool(np.all(every == every[0])) else every
+
+
+def _known(ranges: Ranges) -> tuple[Array, Array | None] | None:
+    """What was remembered of some texts, and what they have beyond; None if nothing was."""
+    words = ranges.all_words
+    if (kept := words.kept(ranges.starts)) is not None:
+        values, counts = kept
+        return values, None if counts is None or bool(np.all(counts == counts[0])) else counts
+    parts = words.kept_of_some(ranges.starts)
+    if not parts:
+        return None
+    rest = np.ones(len(ranges), np.bool_)
+    for rows, _, _ in parts:
+        rest[rows] = False
+    others = np.flatnonzero(rest)
+    if len(others):
+        parts.append((others, *_numbers(ranges.take(others), np.float64, float, None)))
+    counts = np.empty(len(ranges), np.int64)
+    for rows, numbers, every in parts:
+        counts[rows] = len(numbers) // len(rows) if every is None else every
+    ends = np.cumsum(counts)
+    starts = ends - counts
+    values = np.empty(int(ends[-1]))
+    for rows, numbers, _ in parts:
+        values[places_of(starts[rows], counts[rows])] = numbers
+    return values, None if bool(np.all(counts == counts[0])) else counts
 
 
 def _part(ranges: Ranges, dtype: Any, parse: Any, width: int | None) -> tuple[Array, Array | None]:

@@ -49,6 +49,21 @@ class Words:
         del self._kept[len(starts), int(starts[0]), int(starts[-1])]
         return found[1:]
 
+    def kept_of_some(self, starts: Array) -> list[tuple[Array, Array, Array | None]]:
+        """The same for parts of the texts: rows of these with what was remembered of them."""
+        if not self._kept or bool(np.any(starts[1:] <= starts[:-1])):
+            return []
+        keys = np.array(list(self._kept), np.int64)
+        at = np.minimum(np.searchsorted(starts, keys[:, 1]), len(starts) - 1)
+        found = []
+        for key in map(tuple, keys[starts[at] == keys[:, 1]].tolist()):
+            texts, values, counts = self._kept[key]
+            rows = np.minimum(np.searchsorted(starts, texts), len(starts) - 1)
+            if np.array_equal(starts[rows], texts):
+                del self._kept[key]
+                found.append((rows, values, counts))
+        return found
+
     def at(self, places: Array) -> Array:
         """The words (n,) that begin at places within the bytes."""
         places = places.astype(np.int64, copy=False)

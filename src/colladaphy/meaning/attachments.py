@@ -28,7 +28,7 @@ def attachments(context: Context) -> Iterator[Hit]:
     table, parts = constraints_of(context), context.shared(parts_of)
     for side in range(len(SIDES)):
         for row in np.flatnonzero(~table.are_world[:, side] & (table.bodies[:, side] < 0)).tolist():
-            text, element = table.references[row][side], int(table.attachments[row, side])
+            text, element = table.references[side][row], int(table.attachments[row, side])
             model = int(context.parent[table.elements[row]])
             if parts.attached(context.resource, model, text) is None:
                 yield from reference_hits(

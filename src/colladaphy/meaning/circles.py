@@ -35,25 +35,21 @@ _BODIES = ("rigid_body", "rigid_constraint")
 def circles(context: Context) -> Iterator[Hit]:
     """Elements that are instanced within themselves."""
     for name, attribute, kinds in _EDGES:
-        references = context.references(attribute, name)
-        if not references:
-            continue
-        elements = np.array([reference.element for reference in references])
+        elements = context.ordinals(name)
         around = context.ancestor(elements, *kinds)
-        targets = context.targets(reference.text for reference in references)
-        below: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
-        used: list[int] = []
-        for element, outer, target in zip(
-            elements.tolist(), around.tolist(), targets.tolist(), strict=True
-        ):
-            if target < 0 or context.name(target) not in kinds:
-                continue
-            if outer >= 0:
-                below[outer].append((target, element))
-            else:
-                used.append(target)
-        if not below:
+        targets = context.led(name, attribute)
+        there = context.is_named(targets, *kinds)
+        good = np.flatnonzero((around >= 0) & there)
+        if kinds != ("node",):  # what holds nothing closes no circle
+            good = good[np.isin(targets[good], around[good])]
+        if not len(good):
             continue
+        below: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
+        for element, outer, target in zip(
+            *(column[good].tolist() for column in (elements, around, targets)), strict=True
+        ):
+            below[outer].append((target, element))
+        used = targets[(around < 0) & there].tolist()
         if kinds == ("node",):
             _nest(context, below)
         told: set[int] = set()
@@ -114,14 +110,15 @@ def _closing(
 
 def expansions(context: Context) -> Iterator[Hit]:
     """Models in models that make more instances than a file of that size should."""
-    references = context.references("url", "instance_physics_model")
-    if not references:
+    elements = context.ordinals("instance_physics_model")
+    around = context.ancestor(elements, "physics_model")
+    if len(elements) <= MOST_INSTANCES and not bool(np.any(around >= 0)):
         return
-    elements = np.array([reference.element for reference in references])
-    around = context.ancestor(elements, "physics_model").tolist()
-    targets = context.targets(reference.text for reference in references).tolist()
+    targets = context.led("instance_physics_model", "url")
     within: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)
-    for element, outer, target in zip(elements.tolist(), around, targets, strict=True):
+    for element, outer, target in zip(
+        *(column.tolist() for column in (elements, around, targets)), strict=True
+    ):
         within[outer].append((target, element))
     if next(iter(_closing(within)), None) is not None:
         return  # told as a circle

@@ -42,8 +42,8 @@ class Constraints:
         assert rows.ordinals is not None
         self.elements: Array = rows.ordinals.astype(np.int64)
         count = len(rows)
-        self.references = [["", ""] for _ in range(count)]
-        """What the attachments refer to; empty for the world."""
+        self.references = [[""] * count, [""] * count]
+        """What both attachments refer to; empty for the world."""
         self.are_world: Array = np.ones((count, 2), np.bool_)
         """(n, 2) which refer to nothing."""
         self.attachments: Array = np.full((count, 2), -1, np.int64)
@@ -51,24 +51,19 @@ class Constraints:
         """(n, 2) the rows of the bodies, -1 for the world and for what is not found."""
         self.frames = [Poses.none(count), Poses.none(count)]
         """Of both attachments, in their bodies."""
-        parts, home, bodies = context.shared(parts_of), context.resource, bodies_of(context)
-        models = context.parent[self.elements].tolist()
+        parts, bodies = context.shared(parts_of), bodies_of(context)
+        models = context.parent[self.elements]
         for side, name in enumerate(SIDES):
             ends = context.children(rows, name, AttachmentRows)
             assert ends.ordinals is not None
             self.attachments[ends.owner, side] = ends.ordinals
             self.frames[side].put(ends.owner, frames_of(context, ends))
-            held = []
-            for row, text in zip(ends.owner.tolist(), context.texts(ends, "rigid_body"),
-                                 strict=True):  # fmt: skip
-                self.references[row][side] = text = (text or "").strip()
-                meant = parts.attached(home, models[row], text) if text else None
-                held.append(meant[1] if meant is not None and meant[0] is home else -1)
+            texts = [(text or "").strip() for text in context.texts(ends, "rigid_body")]
+            held = parts.held(context.resource, models[ends.owner].tolist(), texts)
             mine, rows_of = matched(bodies.elements, np.array(held, np.int64))
             self.bodies[ends.owner[mine], side] = rows_of
-            self.are_world[ends.owner, side] = [
-                not self.references[row][side] for row in ends.owner.tolist()
-            ]
+            self.are_world[ends.owner, side] = [not text for text in texts]
+            self.references[side] = ends.texts_per_owner(texts, "")
 
 
 def frames_of(context: Context, rows: AttachmentRows) -> Poses:

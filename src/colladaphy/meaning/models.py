@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
-from collections import defaultdict
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -28,14 +28,22 @@ _KINDS = {
     "instance_rigid_body": ("body", "rigid_body"),
     "instance_rigid_constraint": ("constraint", "rigid_constraint"),
 }
-_PLAIN = re.compile(r"[^/#%.]+")
-"""A sid that is written as it is, and no name of a file."""
+_PLAIN = re.compile(r"(?:(?:[^/#%\n]++/[^/#%.\n]++)?+\n)*+")
+"""Paths of a sid in a model, a line each."""
+
 Array = NDArray[Any]
 
 
 def parts_of(context: Context) -> Parts:
     """The parts of the models of a document and of those that it refers to."""
-    return Parts(context.resource)
+    parts, rows = Parts(context.resource), context.rows(Rows, "instance_physics_model")
+    assert rows.ordinals is not None
+    numbers, texts, targets = context.links(rows, "url")
+    good = context.is_named(targets, "physics_model")
+    good &= np.array([text[:1] == "#" for text in texts], np.bool_)
+    here = np.append(good, False)[numbers]
+    parts.know(rows.ordinals[here].tolist(), targets[numbers[here]].tolist())
+    return parts
 
 
 class Parts:
@@ -57,6 +65,14 @@ class Parts:
             texts = texts_of(home.columns, rows, name)
             self._texts[key] = dict(zip(rows.ordinals.tolist(), texts, strict=True))
         return self._texts[key].get(element)
+
+    def know(self, instances: list[int], models: list[int]) -> None:
+        """The models of the document itself that instances of models in it refer to."""
+        home = self._resource
+        self._models.update(
+            ((id(home), instance), (home, model))
+            for instance, model in zip(instances, models, strict=True)
+        )
 
     def model(self, resource: Resource, instance: int) -> tuple[Resource, int] | None:
         """The model that an instance_physics_model refers to; None where it cannot be found."""
@@ -104,10 +120,6 @@ class Parts:
         It is named by its sid, after the id of the model or the sids of models within it.
         """
         id = self.text(home, "physics_model", model, "id")
-        head, slash, sid = reference.partition("/")
-        if slash and head in (".", id) and _PLAIN.fullmatch(sid):  # as nearly all are written
-            body = self.named(home, model, "rigid_body", sid)
-            return None if body is None else (home, body)
         file, head, sids = split_reference(reference)
         if file:
             return None
@@ -119,6 +131,22 @@ class Parts:
             return None
         body = self.named(*where, "rigid_body", path[-1])
         return None if body is None else (where[0], body)
+
+    def held(self, home: Resource, models: list[int], references: list[str]) -> list[int]:
+        """The bodies of this document that attachments within models mean; -1 for none."""
+        own, found = self.own(home, "rigid_body"), [-1] * len(references)
+        ids = {model: self.text(home, "physics_model", model, "id") for model in set(models)}
+        if _PLAIN.fullmatch("".join(f"{text}\n" for text in references)):  # as nearly all are
+            parts = [text.partition("/") for text in references]
+            found = [
+                own.get(model, {}).get(sid, -1) if head in (".", ids[model]) else -1
+                for model, (head, _, sid) in zip(models, parts, strict=True)
+            ]
+        for row in [row for row, body in enumerate(found) if body < 0 and references[row]]:
+            meant = self.attached(home, models[row], references[row])
+            if meant is not None and meant[0] is home:
+                found[row] = meant[1]
+        return found
 
     def _inner(self, home: Resource, model: int, name: str) -> tuple[Resource, int] | None:
         """The model that is instanced in one by the sid of the instance, or by its own id."""
@@ -136,18 +164,25 @@ class Parts:
         """The elements of a kind by their sids (of instances by their numbers), by parent."""
         key = (id(home), kind)
         if key not in self._own:
-            found: defaultdict[int, dict[str, int]] = defaultdict(dict)
             rows = home.columns.rows(Rows, c(kind))
             assert rows.ordinals is not None
             numbers = rows.ordinals.tolist()
-            parents = home.columns.index.parent[rows.ordinals].tolist()
+            parents = home.columns.index.parent[rows.ordinals]
             texts: list[str | None] = list(map(str, numbers))
             if not kind.startswith("instance_"):
                 texts = texts_of(home.columns, rows, "sid")
-            for number, parent, text in zip(numbers, parents, texts, strict=True):
-                if text is not None:
-                    found[parent].setdefault(text, number)
-            self._own[key] = dict(found)
+            cuts = [0, *(np.flatnonzero(np.diff(parents)) + 1).tolist(), len(numbers)]
+            found: dict[int, dict[str, int]] = {}
+            for first, last in pairwise(cuts):
+                # Of those of one sid the first counts.
+                each: dict[Any, int] = dict(
+                    zip(texts[first:last][::-1], numbers[first:last][::-1], strict=True)
+                )
+                each.pop(None, None)
+                if each:
+                    parent = int(parents[first])
+                    found[parent] = {**each, **found.get(parent, {})}
+            self._own[key] = found
         return self._own[key]
 
 
@@ -165,16 +200,18 @@ class Instanced:
         parts, home = context.shared(parts_of), context.resource
         self.lost: Array = np.zeros(len(rows), np.bool_)
         """(n,) which name nothing, though their model is there."""
-        last, model, known, named = -1, None, {}, []
-        for row, (around, text) in enumerate(zip(self.around.tolist(), self.texts, strict=True)):
-            if around != last:
-                last, model = around, parts.model(home, around)
-                known = {} if model is None else parts.own(model[0], kind).get(model[1], {})
-            sid = text.rpartition("/")[2]
-            found = known.get(sid, -1)
-            named.append(found if model is not None and model[0] is home else -1)
+        around = self.around.tolist()
+        knowns: dict[int, dict[str, int]] = {}
+        for each in set(around):
+            model = parts.model(home, each)
+            here = model is not None and model[0] is home
+            knowns[each] = parts.own(home, kind).get(model[1], {}) if model and here else {}
+        named = [knowns[each].get(text, -1) for each, text in zip(around, self.texts, strict=True)]
+        for row in [row for row, found in enumerate(named) if found < 0]:
+            sid, model = self.texts[row].rpartition("/")[2], parts.model(home, around[row])
+            named[row] = knowns[around[row]].get(sid, -1)
             # A model that is not there is reported at its instance.
-            if found < 0 and model is not None:
+            if named[row] < 0 and model is not None:
                 self.lost[row] = sid not in parts.within(*model, kind)
         self.parts: Array = np.array(named, np.int64)
         """(n,) the elements that they name, in this document; -1 for none."""
