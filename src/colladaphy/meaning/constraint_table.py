@@ -87,7 +87,7 @@ def limits_of(context: Context, name: str) -> tuple[Array, Array]:
     made = []
     for part in ("min", "max"):
         values = np.zeros((len(rows), 3))
-        found, elements = context.vectors(groups, part, 3)
+        found, elements = context.vectors(groups, part, 3, 0.0)
         there = elements >= 0
         values[owner[there]] = found[there]
         made.append(values)

@@ -164,12 +164,19 @@ class Context:
             )
         return self._firsts[names]
 
-    def scalars(self, rows: Rows, name: str) -> tuple[Array, Array]:
-        """The number (n,) in a child of each row, NaN for none, and the child (n,), -1 for none."""
-        values, elements = self.vectors(rows, name, 1)
+    def scalars(
+        self, rows: Rows, name: str, default: float = np.nan
+    ) -> tuple[Array, Array]:  # fmt: skip
+        """The number (n,) in a child of each row, NaN for none, and the child (n,), -1 for none.
+
+        A child without text has the schema's `default`, as far as there is one.
+        """
+        values, elements = self.vectors(rows, name, 1, default)
         return values[:, 0], elements
 
-    def vectors(self, rows: Rows, name: str, width: int) -> tuple[Array, Array]:
+    def vectors(
+        self, rows: Rows, name: str, width: int, default: float = np.nan
+    ) -> tuple[Array, Array]:
         """The same for children of several numbers (n, width)."""
         values = np.full((len(rows), width), np.nan)
         elements = np.full(len(rows), -1, np.int64)
@@ -179,6 +186,7 @@ class Context:
             lists, at = self.numbers(name, found.ordinals)
             first = lists.offsets[at]
             full = lists.offsets[at + 1] - first == width
+            values[found.owner[lists.offsets[at + 1] == first]] = default
             values[found.owner[full]] = lists.values[first[full][:, None] + np.arange(width)]
             elements[found.owner] = found.ordinals
         return values, elements

@@ -47,8 +47,8 @@ def limits(context: Context) -> Iterator[Hit]:
         return
     for name in ("linear", "swing_cone_and_twist"):
         groups = context.children(rows, name, Rows)
-        low, low_elements = context.vectors(groups, "min", 3)
-        high, high_elements = context.vectors(groups, "max", 3)
+        low, low_elements = context.vectors(groups, "min", 3, 0.0)
+        high, high_elements = context.vectors(groups, "max", 3, 0.0)
         there = (low_elements >= 0) & (high_elements >= 0)
         free = (low == _FREE[0]) & (high == _FREE[1])
         free |= np.isinf(low) & np.isinf(high)
@@ -84,8 +84,8 @@ def springs(context: Context) -> Iterator[Hit]:
         return
     for name in ("linear", "angular"):
         groups = context.children(rows, name, Rows)
-        for part in ("stiffness", "damping", "target_value"):
-            values, elements = context.scalars(groups, part)
+        for part, default in (("stiffness", 1.0), ("damping", 0.0), ("target_value", 0.0)):
+            values, elements = context.scalars(groups, part, default)
             good = np.isfinite(values)
             if part != "target_value":
                 good &= values >= 0.0
@@ -105,7 +105,7 @@ def targets(context: Context) -> Iterator[Hit]:
         return
     for name, other in (("linear", "linear"), ("angular", "swing_cone_and_twist")):
         groups = context.children(springs, name, Rows)
-        values, elements = context.scalars(groups, "target_value")
+        values, elements = context.scalars(groups, "target_value", 0.0)
         owners = common.owner[springs.owner[groups.owner]]
         low, high = (column[owners] for column in limits_of(context, other))
         free = (low < high) | ~(low <= high)

@@ -19,6 +19,7 @@ _HOLDERS = ("min", "max", "value", "speed", "acceleration", "deceleration", "jer
 _RATES = ("speed", "acceleration", "deceleration", "jerk")
 _TURNING = ("rotate", "matrix")
 _SLIDING = ("translate", "matrix")
+_TRANSFORMS = ("lookat", "matrix", "rotate", "scale", "skew", "translate")
 _DEGREES = 1e-6
 
 
@@ -104,8 +105,9 @@ def bindings(context: Context) -> Iterator[Hit]:
                 yield Hit(kinematics_rules.VALUE, place, message, (joint,))
         target = _transform(context, targets[row])
         turns = context.name(joint) == "revolute"
-        if target >= 0 and context.name(target) not in (_TURNING if turns else _SLIDING):
-            found, kind = context.name(target), context.name(joint)
+        found, kind = context.name(target) if target >= 0 else "", context.name(joint)
+        # What is no transform at all is told at the reference.
+        if found in _TRANSFORMS and found not in (_TURNING if turns else _SLIDING):
             message = f"The axis is of a <{kind}>, but the target is a <{found}>."
             yield Hit(kinematics_rules.TRANSFORM, element, message, (target, joint), "target")
 

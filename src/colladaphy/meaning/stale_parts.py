@@ -146,7 +146,7 @@ def springs(context: Context) -> Iterator[Hit]:
             ("stiffness", 1.0, 1.0 / DEGREE), ("damping", 0.0, 1.0 / DEGREE),
             ("target_value", 0.0, DEGREE),
         ):  # fmt: skip
-            stated, places = context.vectors(found, name, 1)
+            stated, places = context.vectors(found, name, 1, default)
             stated[places < 0] = default
             stated *= factor if angular else 1.0
             kept, around, values = profile.values(name, 1, kind)
