@@ -36,7 +36,10 @@ _MEMBERS: dict[str, tuple[frozenset[str], int]] = {
 }
 """Names of members, and how many values there are; 0 where that differs."""
 _WHOLE = frozenset({"node", "visual_scene", "geometry", "mesh", "material", "effect", "camera",
-                    "light", "controller", "skin", "animation", "sampler"})  # fmt: skip
+                    "light", "controller", "skin", "animation", "sampler", "image",
+                    "vertices", "Name_array", "IDREF_array", "SIDREF_array", "animation_clip",
+                    "physics_model", "physics_scene", "physics_material",
+                    "force_field"})  # fmt: skip
 _INDEX = re.compile(r"\((\d+)\)")
 _SPLIT = re.compile(r"(.*?)(\.[A-Za-z_]+|(?:\(\d+\))+)\Z")
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -55,6 +56,9 @@ def motions(context: Context) -> Iterator[Hit]:
     poses, _ = context.placement.poses(table.rows_of(0, targets))
     inner, single, plane, clear = _inner_poses(context, holders)
     whole = poses.then(inner)
+    strays, away, kept = _displaced(elements, placed, positions, whole, inner)
+    astray = np.zeros(len(elements), np.bool_)
+    astray[away] = single[away] & clear[away]
     mine, at = matched(elements, turned)
     mine, at = (each[np.isfinite(orientations[mine]).all(axis=1)] for each in (mine, at))
     units = unit_quaternions(orientations[mine])
@@ -64,17 +68,28 @@ def motions(context: Context) -> Iterator[Hit]:
     for row in np.flatnonzero(
         (apart > TURN) & orientations[mine].any(axis=1) & ~plane[at] & clear[at]
     ).tolist():
-        yield old("orientation", int(turns[mine[row]]), stated[row], orientations[mine[row]],
-                   int(targets[at[row]]))  # fmt: skip
+        hit = old("orientation", int(turns[mine[row]]), stated[row], orientations[mine[row]],
+                  int(targets[at[row]]))  # fmt: skip
+        if astray[at[row]]:  # who moves a body turns it as well
+            astray[at[row]] = False
+            hit = replace(hit, message=f"{hit.message} The position is another one, too.")
+        yield hit
+    for row in np.flatnonzero(astray[away]).tolist():
+        yield old("position", int(places[strays[row]]), whole.positions[away[row]], kept[row],
+                  int(targets[away[row]]))  # fmt: skip
+
+
+def _displaced(
+    elements: Array, placed: Array, positions: Array, whole: Poses, inner: Poses
+) -> tuple[Array, Array, Array]:
+    """Positions that are others than those of bodies: their rows, those of the bodies, they."""
     mine, at = matched(elements, placed)
     stated = whole.positions[at]
     columns = (positions[mine], stated, inner.positions[at])
     scale = np.max([np.abs(column).max(axis=1, initial=0.0) for column in columns], axis=0)
     apart = np.abs(positions[mine] - stated).max(axis=1, initial=0.0)
-    told = ~np.isfinite(positions[mine]).all(axis=1) | ~clear[at]
-    for row in np.flatnonzero((apart > 10.0 * DIGITS * scale) & single[at] & ~told).tolist():
-        yield old("position", int(places[mine[row]]), stated[row], positions[mine[row]],
-                   int(targets[at[row]]))  # fmt: skip
+    wrong = (apart > 10.0 * DIGITS * scale) & np.isfinite(positions[mine]).all(axis=1)
+    return mine[wrong], at[wrong], positions[mine[wrong]]
 
 
 def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Array, Array]:

@@ -5,6 +5,7 @@ As in `staleness`: what the common profile says now is compared with what the pr
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from typing import Any
 
@@ -108,9 +109,21 @@ def members(context: Context) -> Iterator[Hit]:
     sizes = np.maximum(sizes, reach(stated.positions))
     at = places.positions.rows(elements)
     moved = good & (at >= 0) & (apart > 10.0 * DIGITS * sizes)
+    above = context.parent[elements]
+    together: dict[int, list[int]] = {}
     for row in np.flatnonzero(moved).tolist():
-        yield old("position", int(places.positions.elements[at[row]]), stated.positions[row],
-                  kept.positions[row], int(shapes.elements[rows[row]]))  # fmt: skip
+        together.setdefault(int(above[row]), []).append(row)
+    members = Counter(above.tolist()) if together else {}
+    for union, found in together.items():
+        own = int(places.positions.rows(np.array([union]))[0])
+        if own >= 0 and 1 < len(found) == members[union]:  # it is the union that stands elsewhere
+            message = f"All {len(found)} members stand elsewhere in the common profile."
+            yield Hit(profile_rules.OLD_VALUE, int(places.positions.elements[own]), message,
+                      tuple(shapes.elements[rows[found[:3]]].tolist()))  # fmt: skip
+            continue
+        for row in found:
+            yield old("position", int(places.positions.elements[at[row]]), stated.positions[row],
+                      kept.positions[row], int(shapes.elements[rows[row]]))  # fmt: skip
     at = places.orientations.rows(elements)
     turned = good & ~moved & (at >= 0)
     turned[turned] = places.orientations.values[at[turned]].any(axis=1)
