@@ -149,6 +149,9 @@ def axes(context: Context) -> Iterator[Hit]:
 
 def parameters(context: Context) -> Iterator[Hit]:
     """Parameters of kinematics that nobody declares."""
+    for reference in context.references("ref", "param"):
+        if context.name(int(context.parent[reference.element])) == "bind":
+            yield from _undeclared(context, reference.element, reference.text, "ref")
     rows = context.rows(TextRows, "param")
     if not len(rows):
         return
@@ -156,14 +159,17 @@ def parameters(context: Context) -> Iterator[Hit]:
     mine = np.flatnonzero(context.is_within(rows.ordinals, *_HOLDERS))
     if not len(mine):
         return
-    known = context.shared(_declared)
     texts = context.at(TextRows, rows.ordinals[mine]).value
     for element, text in zip(rows.ordinals[mine].tolist(), texts, strict=True):
-        name = text.strip()
-        last = name.rpartition("/")[2]
-        if name and not {name, last, last.rpartition(".")[2]} & known:
-            message = f"No <newparam> or <bind> declares the parameter {name!r}."
-            yield Hit(MISSING, element, message, severity=Severity.WARNING)
+        yield from _undeclared(context, element, text, None)
+
+
+def _undeclared(context: Context, element: int, text: str, attribute: str | None) -> Iterator[Hit]:
+    name = text.strip()
+    last = name.rpartition("/")[2]
+    if name and not {name, last, last.rpartition(".")[2]} & context.shared(_declared):
+        message = f"No <newparam> or <bind> declares the parameter {name!r}."
+        yield Hit(MISSING, element, message, (), attribute, Severity.WARNING)
 
 
 def _declared(context: Context) -> frozenset[str]:

@@ -33,7 +33,18 @@ _MEMBERS: dict[str, tuple[frozenset[str], int]] = {
     "matrix": (frozenset(), 16),
     "lookat": (frozenset(), 9),
     "skew": (frozenset(), 7),
-}
+    **dict.fromkeys(("gravity", "inertia"), (_VECTOR, 3)),
+    **dict.fromkeys(
+        (
+            "xfov", "yfov", "znear", "zfar", "aspect_ratio", "xmag", "ymag",
+            "constant_attenuation", "linear_attenuation", "quadratic_attenuation",
+            "falloff_angle", "falloff_exponent", "float", "mass", "density", "stiffness",
+            "damping", "target_value", "time_step", "restitution", "static_friction",
+            "dynamic_friction",
+        ),
+        (frozenset(), 1),
+    ),
+}  # fmt: skip
 """Names of members, and how many values there are; 0 where that differs."""
 _WHOLE = frozenset({"node", "visual_scene", "geometry", "mesh", "material", "effect", "camera",
                     "light", "controller", "skin", "animation", "sampler", "image",

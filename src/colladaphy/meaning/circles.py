@@ -17,16 +17,15 @@ from colladaphy.meaning.hits import Hit
 __all__ = ["CHECKS"]
 
 
-_EDGES: tuple[tuple[str, str, tuple[str, ...]], ...] = (
-    ("instance_node", "url", ("node",)),
-    ("instance_physics_model", "url", ("physics_model",)),
-    ("instance_articulated_system", "url", ("articulated_system",)),
-    ("instance_kinematics_model", "url", ("kinematics_model",)),
-    ("convex_mesh", "convex_hull_of", ("geometry",)),
-    ("skin", "source", ("controller",)),
-    ("morph", "source", ("controller",)),
-    ("instance_animation", "url", ("animation",)),
-    ("instance_formula", "url", ("formula",)),
+_EDGES: tuple[tuple[tuple[str, ...], str, tuple[str, ...]], ...] = (
+    (("instance_node",), "url", ("node",)),
+    (("instance_physics_model",), "url", ("physics_model",)),
+    (("instance_articulated_system",), "url", ("articulated_system",)),
+    (("instance_kinematics_model",), "url", ("kinematics_model",)),
+    (("convex_mesh",), "convex_hull_of", ("geometry",)),
+    (("skin", "morph"), "source", ("controller",)),
+    (("instance_animation",), "url", ("animation",)),
+    (("instance_formula",), "url", ("formula",)),
 )
 """References that put one element into another: where, which, and the names of both."""
 _BODIES = ("rigid_body", "rigid_constraint")
@@ -34,10 +33,10 @@ _BODIES = ("rigid_body", "rigid_constraint")
 
 def circles(context: Context) -> Iterator[Hit]:
     """Elements that are instanced within themselves."""
-    for name, attribute, kinds in _EDGES:
-        elements = context.ordinals(name)
+    for names, attribute, kinds in _EDGES:
+        elements = np.concatenate([context.ordinals(name) for name in names])
         around = context.ancestor(elements, *kinds)
-        targets = context.led(name, attribute)
+        targets = np.concatenate([context.led(name, attribute) for name in names])
         there = context.is_named(targets, *kinds)
         good = np.flatnonzero((around >= 0) & there)
         if kinds != ("node",):  # what holds nothing closes no circle

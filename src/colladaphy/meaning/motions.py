@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.meaning import physics_rules
+from colladaphy.meaning import physics_rules, scene_rules
 from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.radians import written_as_radians
 from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
@@ -31,11 +33,9 @@ def velocities(context: Context) -> Iterator[Hit]:
     fixed = ~bodies.moves[mine]
     told = np.zeros(len(rows), np.bool_)
     for name in ("velocity", "angular_velocity"):
-        values, elements = context.vectors(rows, name, 3)
+        values, elements = context.vectors(rows, name, 3, 0.0)
         there = elements >= 0
-        # Without text it is the default, zero.
         wrong = there & ~np.isfinite(values).all(axis=1)
-        wrong &= ~_is_empty(context, rows, name)
         for row in np.flatnonzero(wrong).tolist():
             shown = " ".join(f"{value:g}" for value in values[row].tolist())
             yield Hit(
@@ -52,13 +52,20 @@ def velocities(context: Context) -> Iterator[Hit]:
             yield Hit(physics_rules.VELOCITY_FIXED, int(elements[row]), message)
 
 
-def _is_empty(context: Context, rows: Rows, name: str) -> Array:
-    found = context.children(rows, name, Rows)
-    assert found.ordinals is not None
-    empty = np.zeros(len(rows), np.bool_)
-    lists, at = context.numbers(name, found.ordinals)
-    empty[found.owner] = lists.offsets[at] == lists.offsets[at + 1]
-    return empty
+def radians(context: Context) -> Iterator[Hit]:
+    """Angular velocities that are known parts of a circle in radians, about one axis."""
+    rows = context.rows(Rows, "instance_rigid_body")
+    common = context.children(rows, "technique_common", Rows)
+    values, elements = context.vectors(common, "angular_velocity", 3, 0.0)
+    speeds = np.nan_to_num(values).sum(axis=1)
+    alone = (values != 0.0).sum(axis=1) == 1
+    for row in np.flatnonzero((elements >= 0) & alone & written_as_radians(speeds)).tolist():
+        turned = math.degrees(speeds[row])
+        message = (
+            f"The angular velocity is {speeds[row]:g} degrees per second; as radians, it would be "
+            f"{turned:.4g}."
+        )
+        yield Hit(scene_rules.RADIANS, int(elements[row]), message)
 
 
-CHECKS = (velocities,)
+CHECKS = (velocities, radians)

@@ -170,6 +170,8 @@ def vertices(context: Context) -> Iterator[Hit]:
     firsts = inputs.first(inputs.owners[rows], "POSITION")
     counts, others = np.append(inputs.counts, -1)[firsts], inputs.counts[rows]
     unlike = (counts >= 0) & (others >= 0) & (counts != others)
+    # Knots are more than points, by the degree.
+    unlike &= ~inputs.are("KNOT", "KNOT_U", "KNOT_V")[rows]
     strays: dict[int, list[int]] = {}
     for row, first in zip(rows[unlike].tolist(), firsts[unlike].tolist(), strict=True):
         strays.setdefault(first, []).append(row)
@@ -177,7 +179,9 @@ def vertices(context: Context) -> Iterator[Hit]:
         count, other = int(inputs.counts[first]), int(inputs.counts[found[0]])
         owned = inputs.of(int(inputs.owners[first]))
         if len(found) > 1 and all(
-            int(inputs.counts[row]) == other for row in owned if row != first
+            int(inputs.counts[row]) == other
+            for row in owned
+            if row != first and not inputs.semantic(row).startswith("KNOT")
         ):
             # It is the positions that are others than all the rest.
             message = f"There are {count} positions, but {other} values of all other inputs."
