@@ -60,7 +60,7 @@ FOLLOWING: Final = (
     # What the profile keeps is that of a value which is none itself, or is not compared with one.
     Following(
         (profile_rules.OLD_VALUE, profile_rules.NUMBER, profile_rules.VALUE),
-        physics_rules.RULES,
+        (*physics_rules.RULES, MISSING, WRONG_TYPE),
         beside=True,
     ),
     # A node that is another body's stands elsewhere.
@@ -71,11 +71,13 @@ FOLLOWING: Final = (
     Following(
         (profile_rules.OLD_VALUE,), _FRAMES, ("instance_rigid_body",), causes_beside=True
     ),
-    Following((profile_rules.OLD_VALUE,), _FRAMES, beside=True, causes_beside=True),
     Following(
-        (profile_rules.OLD_VALUE,), (physics_rules.JOINT_LIMITS, physics_rules.JOINT_RADIANS),
+        (profile_rules.OLD_VALUE,),
+        (*_FRAMES, physics_rules.JOINT_LIMITS, physics_rules.JOINT_RADIANS,
+         physics_rules.JOINT_SELF, physics_rules.JOINT_FIXED),
         ("rigid_constraint",),
     ),
+    Following((physics_rules.MATERIAL_FRICTIONS,), (physics_rules.MATERIAL_RANGE,)),
     Following(
         (profile_rules.OLD_VALUE,), (physics_rules.MATERIAL_FRICTIONS,), ("physics_material",)
     ),
@@ -88,6 +90,7 @@ FOLLOWING: Final = (
     Following(
         (profile_rules.OLD_VALUE, physics_rules.MASS_SUM), (profile_rules.UNION,), ("rigid_body",)
     ),
+    Following((profile_rules.OLD_VALUE,), (physics_rules.MASS_ZERO,), ("rigid_body",)),
     Following(
         (profile_rules.SYSTEM_ID,), (profile_rules.TWICE, profile_rules.UNION),
         ("rigid_body", "rigid_constraint"),
@@ -113,6 +116,11 @@ FOLLOWING: Final = (
         at=("rigid_body", "rigid_constraint"),
     ),
     Following((link_rules.TEXTURE_SAMPLER, MISSING), (link_rules.DUPLICATE_SID,), ("effect",)),
+    # A joint that is not there closes no loop, and what is called so has no other end.
+    Following(
+        (kinematics_rules.LOOP,), (MISSING, WRONG_TYPE), ("kinematics_model",),
+        at=("attachment_full", "attachment_start", "attachment_end"),
+    ),
     # Whether two channels move at a time is not known without their clips.
     Following(
         (animation_rules.CHANNEL_TWICE,), (MISSING, WRONG_TYPE), ("COLLADA",),
@@ -145,7 +153,7 @@ FOLLOWING: Final = (
     Following((geometry_rules.PARAM_TYPE,), _OF_ACCESSORS, ("accessor",)),
     Following(
         (geometry_rules.INPUT_VALUES, animation_rules.OUTPUT_WIDTH),
-        (*_OF_ACCESSORS, geometry_rules.PARAM_TYPE),
+        (*_OF_ACCESSORS, geometry_rules.PARAM_TYPE, geometry_rules.PARAM_TWICE),
         ("accessor",),
         beside=True,
     ),

@@ -46,7 +46,12 @@ def masses(context: Context) -> Iterator[Hit]:
     mine, rows = matched(bodies.elements, holders)
     stated, others = bodies.masses[rows], bodies.mass_elements[rows]
     if (others < 0).any():
-        stated = np.where(others < 0, context.shared(_masses_of_shapes)[rows], stated)
+        # A mass that is the sum of what the profile has for the shapes is compared there.
+        parts, _, masses_of_parts = profile.values("mass", 1, "shape")
+        held, at = matched(bodies.elements, profile.holders(parts))
+        sums = np.bincount(at, masses_of_parts[held, 0], minlength=len(bodies.elements))[rows]
+        silent = (others < 0) & ~((sums > 0.0) & same(sums[:, None], values[mine]))
+        stated = np.where(silent, context.shared(_masses_of_shapes)[rows], stated)
         others = np.where(others < 0, holders[mine], others)
     among = (values[mine, 0] >= 0.0) & (stated >= 0.0)
     yield from differing("mass", kept[mine], stated[:, None], values[mine], others, among)
