@@ -44,6 +44,7 @@ SUBJECTS: Final[dict[str, tuple[str, ...]]] = {
     "primitives": _PRIMITIVES,
     "values": ("float_array",),
     "surfaces": _PRIMITIVES,
+    "blank_hulls": ("convex_mesh",),
     "scene": ("node", "camera", "light", "skin", "rigid_body", "link", "rigid_constraint"),
     "controllers": ("controller",),
     "animation": ("animation", "animation_clip", "control_vertices"),

@@ -195,7 +195,7 @@ PARAM_TWICE = Rule(
 NO_FACES = Rule(
     "geometry-no-faces",
     Severity.WARNING,
-    "The geometry of a shape has no faces.",
+    "The geometry of a shape has no faces, or is no mesh.",
     'Give it triangles or polygons, or use its convex hull: <convex_mesh convex_hull_of="#id"/>.',
     "COLLADA 1.5 §shape",
     "It encloses no volume, and the body cannot be loaded.",

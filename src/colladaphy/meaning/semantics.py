@@ -42,6 +42,7 @@ _MESH = {
     "TEXCOORD": _Need((1, 2, 3, 4)),
     "COLOR": _Need((3, 4)),
 }
+_WHOLE = ("int_array", "bool_array")
 _GRAVE = ("POSITION", "JOINT", "WEIGHT", "INV_BIND_MATRIX", "INPUT", "OUTPUT")
 _STANDARD = ("VERTEX", "UV", *_MESH)
 _NEEDS: dict[str, dict[str, _Need]] = {
@@ -88,6 +89,8 @@ def _unlike(context: Context, rows: Array, semantic: str, need: _Need) -> Iterat
     wrong = context.is_named(
         table.arrays[sources], *(TOKEN_ARRAYS if need.numbers else NUMBER_ARRAYS)
     )
+    if semantic == "POSITION":
+        wrong |= context.is_named(table.arrays[sources], *_WHOLE)
     others = ~np.isin(widths, need.widths) if need.widths else np.zeros_like(wrong)
     for row, is_wrong, source, width in zip(
         *(column[wrong | others].tolist() for column in (rows, wrong, sources, widths)), strict=True
@@ -95,7 +98,9 @@ def _unlike(context: Context, rows: Array, semantic: str, need: _Need) -> Iterat
         if is_wrong:
             wanted = "numbers" if need.numbers else "names"
             kind = context.name(int(table.arrays[source]))
-            yield row, f"{semantic} needs {wanted}, but its values are in a <{kind}>."
+            wanted = "real numbers" if kind in _WHOLE and need.numbers else wanted
+            article = "an" if kind[0] in "iI" else "a"
+            yield row, f"{semantic} needs {wanted}, but its values are in {article} <{kind}>."
         else:
             wanted = " or ".join(map(str, need.widths))
             yield row, f"{semantic} needs {wanted} values in an item, but there are {width}."
@@ -106,7 +111,8 @@ def semantics(context: Context) -> Iterator[Hit]:
     inputs, table = inputs_of(context), sources_of(context)
     told: set[int] = set()
     unfit = unfit_inputs(context)
-    light = {row: inputs.semantic(row) not in _GRAVE for row in unfit}
+    whole = np.append(context.is_named(table.arrays, *_WHOLE), False)[inputs.sources]
+    light = {row: inputs.semantic(row) not in _GRAVE or bool(whole[row]) for row in unfit}
     for row in sorted(unfit, key=lambda row: (light[row], row)):
         source = int(inputs.sources[row])
         if source in told:

@@ -67,13 +67,15 @@ def faces(context: Context) -> Iterator[Hit]:
     if not len(shapes.mesh_rows):
         return
     there = context.ordinals("triangles", "polygons", "polylist", "trifans", "tristrips")
-    others = context.ordinals("mesh", "spline")
+    others = context.ordinals("mesh", "spline", "brep")
     lacking = np.isin(shapes.geometries, context.parent[others])
     lacking &= ~np.isin(shapes.geometries, context.ancestor(there, "geometry"))
     for place in np.flatnonzero(lacking).tolist():
         row, geometry = int(shapes.mesh_rows[place]), int(shapes.geometries[place])
-        content = _content(context, geometry, "mesh", "spline")
+        content = _content(context, geometry, "mesh", "spline", "brep")
         message = f"{context.label(geometry)} is a <{context.name(content)}> without faces."
+        if context.name(content) == "brep":
+            message = f"{context.label(geometry)} is a <brep>, not a mesh."
         instances = context.first_children("instance_geometry")
         element = instances.get(int(shapes.elements[row]), int(shapes.elements[row]))
         yield Hit(geometry_rules.NO_FACES, element, message, (content,), "url")
