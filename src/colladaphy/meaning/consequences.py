@@ -60,7 +60,7 @@ FOLLOWING: Final = (
     # What the profile keeps is that of a value which is none itself, or is not compared with one.
     Following(
         (profile_rules.OLD_VALUE, profile_rules.NUMBER, profile_rules.VALUE),
-        (*physics_rules.RULES, MISSING, WRONG_TYPE),
+        (*physics_rules.RULES, scene_rules.RADIANS, MISSING, WRONG_TYPE),
         beside=True,
     ),
     # A node that is another body's stands elsewhere.
@@ -74,16 +74,18 @@ FOLLOWING: Final = (
     Following(
         (profile_rules.OLD_VALUE,),
         (*_FRAMES, physics_rules.JOINT_LIMITS, physics_rules.JOINT_RADIANS,
-         physics_rules.JOINT_SELF, physics_rules.JOINT_FIXED),
+         physics_rules.JOINT_SELF, physics_rules.JOINT_FIXED, physics_rules.JOINT_TARGET),
         ("rigid_constraint",),
     ),
     Following((physics_rules.MATERIAL_FRICTIONS,), (physics_rules.MATERIAL_RANGE,)),
     Following(
         (profile_rules.OLD_VALUE,), (physics_rules.MATERIAL_FRICTIONS,), ("physics_material",)
     ),
-    # Of a shape that is none it is not known how it stands.
+    # Of a shape that is none it is not known how it stands, or what it weighs.
     Following(
-        (profile_rules.OLD_VALUE,), (physics_rules.SHAPE_SIZE, MISSING, WRONG_TYPE), ("shape",),
+        (profile_rules.OLD_VALUE,),
+        (physics_rules.SHAPE_SIZE, physics_rules.MASS_DENSITY, MISSING, WRONG_TYPE),
+        ("shape",),
         beside=True,
     ),
     Following((profile_rules.OLD_VALUE,), (profile_rules.VALUE,)),
