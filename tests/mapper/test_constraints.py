@@ -89,6 +89,16 @@ def test_springs() -> None:
     assert joint.angular_spring == pytest.approx((2 / degree, 1 / degree, math.pi / 2))
 
 
+def test_a_spring_that_does_not_pull_has_no_target() -> None:
+    inert = "<stiffness>0</stiffness><damping>2</damping><target_value>INF</target_value>"
+    element = constraint(f"<spring><linear>{inert}</linear></spring>")
+    assert joint_of(element).linear_spring == (0.0, 2.0, 0.0)
+    told = {finding.code for finding in colladaphy.validate(document_of(element))}
+    assert "physics-joint-spring" not in told
+    pulling = document_of(element).replace(b"<stiffness>0<", b"<stiffness>1<")
+    assert "physics-joint-spring" in {finding.code for finding in colladaphy.validate(pulling)}
+
+
 def test_without_springs_there_are_none() -> None:
     assert joint_of(constraint()).linear_spring == (0.0, 0.0, 0.0)
 

@@ -84,11 +84,16 @@ def springs(context: Context) -> Iterator[Hit]:
         return
     for name in ("linear", "angular"):
         groups = context.children(rows, name, Rows)
+        pulls = np.ones(len(groups), np.bool_)
         for part, default in (("stiffness", 1.0), ("damping", 0.0), ("target_value", 0.0)):
             values, elements = context.scalars(groups, part, default)
             good = np.isfinite(values)
-            if part != "target_value":
+            if part == "target_value":
+                good |= np.isinf(values) & ~pulls
+            else:
                 good &= values >= 0.0
+            if part == "stiffness":
+                pulls = values != 0.0
             for row in np.flatnonzero((elements >= 0) & ~good).tolist():
                 message = f"The {part.replace('_', ' ')} of the {name} spring is {values[row]:g}."
                 nothing = math.isnan(float(values[row]))

@@ -91,6 +91,9 @@ def read_constraints(constraints: Any, home: int, start: int) -> Constraints:
             for part, default in (("stiffness", 1.0), ("damping", 0.0), ("target_value", 0.0))
         ])  # fmt: skip
         has_spring[rows, side] = True
+    # Where a spring does not pull at all, it does not matter where to; some write INF.
+    inert = (springs[:, :, 0] == 0.0) & np.isinf(springs[:, :, 2])
+    springs[:, :, 2][inert] = 0.0
     with np.errstate(all="ignore"):
         per_radian = springs[:, 1, :2] / DEGREE
         springs[:, 1, :2] = np.where(np.isinf(per_radian), np.copysign(_LARGEST, per_radian),
