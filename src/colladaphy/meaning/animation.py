@@ -25,7 +25,7 @@ Array = NDArray[Any]
 
 _KNOWN = frozenset({"LINEAR", "BEZIER", "CARDINAL", "HERMITE", "BSPLINE", "STEP"})
 _VECTOR, _COLOR = frozenset("XYZ"), frozenset("RGBA")
-_MEMBERS: dict[str, tuple[frozenset[str], int]] = {
+_MEMBERS: dict[str, tuple[frozenset[str] | None, int]] = {
     "translate": (_VECTOR, 3),
     "scale": (_VECTOR, 3),
     "rotate": (_VECTOR | {"ANGLE"}, 4),
@@ -42,10 +42,13 @@ _MEMBERS: dict[str, tuple[frozenset[str], int]] = {
             "damping", "target_value", "time_step", "restitution", "static_friction",
             "dynamic_friction",
         ),
-        (frozenset(), 1),
+        (None, 1),
     ),
 }  # fmt: skip
-"""Names of members, and how many values there are; 0 where that differs."""
+"""Names of members, and how many values there are; 0 where that differs.
+
+A number has no members, but some exporters name it (``fov.ANGLE``).
+"""
 _WHOLE = frozenset({"node", "visual_scene", "geometry", "mesh", "material", "effect", "camera",
                     "light", "controller", "skin", "animation", "sampler", "image",
                     "vertices", "Name_array", "IDREF_array", "SIDREF_array", "animation_clip",

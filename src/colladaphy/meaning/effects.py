@@ -22,7 +22,7 @@ __all__ = ["CHECKS", "RANGES", "inside"]
 Array = NDArray[Any]
 
 _MOST = 100.0
-"""Above it a colour is meant from 0 to 255."""
+"""Above it a colour of a surface is meant from 0 to 255."""
 RANGES = {
     "transparency": (0.0, 1.0),
     "reflectivity": (0.0, 1.0),
@@ -82,9 +82,11 @@ def _parameters(context: Context) -> dict[int, set[str]]:
 def colours(context: Context) -> Iterator[Hit]:
     """Colours of effects and lights that are none."""
     lights = context.ordinals("color")
-    for elements in (inside(context, "color"), lights[context.ancestor(lights, "light") >= 0]):
+    lights = lights[context.ancestor(lights, "light") >= 0]
+    # The colours of lights hold their strength, too: some write 1000 for a lamp.
+    for elements, most in ((inside(context, "color"), _MOST), (lights, np.finfo(np.float64).max)):
         lists = context.at(FloatRows, elements).value
-        bad = ~((lists.values >= 0.0) & (lists.values <= _MOST))
+        bad = ~((lists.values >= 0.0) & (lists.values <= most))
         owner = np.searchsorted(lists.offsets, np.flatnonzero(bad), side="right") - 1
         for row in distinct(owner).tolist():
             shown = " ".join(f"{value:g}" for value in lists[row].tolist())
