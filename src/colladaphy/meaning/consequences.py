@@ -92,7 +92,10 @@ FOLLOWING: Final = (
     Following(
         (profile_rules.OLD_VALUE, physics_rules.MASS_SUM), (profile_rules.UNION,), ("rigid_body",)
     ),
-    Following((profile_rules.OLD_VALUE,), (physics_rules.MASS_ZERO,), ("rigid_body",)),
+    Following(
+        (profile_rules.OLD_VALUE,), (physics_rules.MASS_ZERO, physics_rules.MASS_SUM),
+        ("rigid_body",),
+    ),
     Following(
         (profile_rules.SYSTEM_ID,), (profile_rules.TWICE, profile_rules.UNION),
         ("rigid_body", "rigid_constraint"),

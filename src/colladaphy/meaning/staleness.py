@@ -25,7 +25,7 @@ from colladaphy.meaning.profile_table import profile_of
 from colladaphy.meaning.shape_table import shapes_of
 from colladaphy_schema.rows import Rows
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "old_limits"]
 
 Array = NDArray[Any]
 
@@ -194,10 +194,19 @@ def materials(context: Context) -> Iterator[Hit]:
 
 def limits(context: Context) -> Iterator[Hit]:
     """Limits of joints, of each joint once: where one is left behind, all may be."""
+    yield from old_limits(context).values()
+
+
+def old_limits(context: Context) -> dict[int, Hit]:
+    """What is told of the limits of joints, by the joint."""
+    return context.shared(_old_limits)
+
+
+def _old_limits(context: Context) -> dict[int, Hit]:
     profile = profile_of(context)
     constraints = context.rows(Rows, "rigid_constraint").ordinals
     assert constraints is not None
-    told: set[int] = set()
+    found: dict[int, Hit] = {}
     for name, other, factor in (
         ("linear_limits", "linear", 1.0), ("angular_limits", "swing_cone_and_twist", DEGREE),
     ):  # fmt: skip
@@ -212,11 +221,11 @@ def limits(context: Context) -> Iterator[Hit]:
             for place in np.flatnonzero(wrong).tolist():
                 what = f"{part} of the {name.replace('_', ' ')}"
                 row = int(at[place])
-                if row in told:
-                    continue
-                told.add(row)
-                yield old(what, int(kept[mine[place]]), stated[row] * factor, values[mine[place]],
-                          int(constraints[row]))  # fmt: skip
+                joint = int(constraints[row])
+                hit = old(what, int(kept[mine[place]]), stated[row] * factor, values[mine[place]],
+                          joint)  # fmt: skip
+                found.setdefault(joint, hit)
+    return found
 
 
 def worlds(context: Context) -> Iterator[Hit]:
