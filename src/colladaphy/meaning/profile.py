@@ -20,7 +20,7 @@ from colladaphy.meaning.links import reference_hits
 from colladaphy.meaning.profile_table import profile_of
 from colladaphy_schema.rows import Column, Masked, Rows
 
-__all__ = ["CHECKS"]
+__all__ = ["CHECKS", "are_broken"]
 
 
 Array = NDArray[Any]
@@ -192,9 +192,7 @@ def ranges(context: Context) -> Iterator[Hit]:
     some = np.flatnonzero((sizes > 0.0) & (sizes < np.inf))
     matrices = (values[some] / sizes[some, None]).reshape(-1, 3, 3)
     moments = np.linalg.eigvalsh((matrices + matrices.transpose(0, 2, 1)) / 2.0)
-    one, two, three = moments.T
-    wrong = (one < -1e-9 * np.abs(three)) | (one + two < three * (1.0 - 1e-3))
-    rows = np.flatnonzero(wrong)
+    rows = np.flatnonzero(are_broken(moments))
     beside = counterparts(context, tensors[some[rows]])
     for row, related in zip(rows.tolist(), beside, strict=True):
         shown = " ".join(f"{moment * sizes[some[row]]:g}" for moment in moments[row])
@@ -209,6 +207,12 @@ def ranges(context: Context) -> Iterator[Hit]:
             shown = " ".join(f"{value:g}" for value in low_values[row].tolist())
             message = f"The lower limits are {shown}, above the upper ones."
             yield Hit(profile_rules.VALUE, int(lower[row]), message, (int(around[row]), *related))
+
+
+def are_broken(moments: Array) -> Array:
+    """Which principal moments of inertia (n, 3), ascending, no body has (n,)."""
+    one, two, three = moments.T
+    return np.asarray((one < -1e-9 * np.abs(three)) | (one + two < three * (1.0 - 1e-3)))
 
 
 def pairs(context: Context) -> Iterator[Hit]:

@@ -14,6 +14,7 @@ from colladaphy.meaning.comparing import matched
 from colladaphy.meaning.constraint_table import constraints_of, limits_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
+from colladaphy.meaning.profile import are_broken
 from colladaphy.meaning.profile_table import profile_of
 from colladaphy.meaning.staleness import old_limits
 from colladaphy_schema.rows import Rows
@@ -55,7 +56,7 @@ def kinds(context: Context) -> Iterator[Hit]:
 
 
 def tensors(context: Context) -> Iterator[Hit]:
-    """Tensors of inertia that are not symmetric."""
+    """Tensors of inertia that are not symmetric, but for those that no body has."""
     elements, _, values = profile_of(context).values("inertia", 9, "body", "shape", "union")
     if not len(elements):
         return
@@ -63,7 +64,12 @@ def tensors(context: Context) -> Iterator[Hit]:
     sizes = np.abs(matrices).max(axis=(1, 2))
     with np.errstate(over="ignore"):
         apart = np.abs(matrices - matrices.transpose(0, 2, 1)).max(axis=(1, 2))
-    for row in np.flatnonzero(apart > 1e-6 * sizes).tolist():
+    wrong = np.flatnonzero(apart > 1e-6 * sizes)
+    if len(wrong):
+        scaled = matrices[wrong] / sizes[wrong, None, None]
+        moments = np.linalg.eigvalsh((scaled + scaled.transpose(0, 2, 1)) / 2.0)
+        wrong = wrong[~are_broken(moments)]
+    for row in wrong.tolist():
         message = "The inertia is not symmetric; loading takes the mean of both halves."
         yield Hit(profile_rules.VALUE, int(elements[row]), message, severity=Severity.WARNING)
 
