@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from functools import cached_property
 from typing import Any, TypeVar
 
 import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
+from colladaphy.columns.identifiers import Identifiers
 from colladaphy.columns.index import BLOCK, Index, NotPlain
 from colladaphy.columns.namespaces import codes_by_name
 from colladaphy.columns.places import Place, Places
@@ -145,6 +147,30 @@ class Document:
         codes = np.full(len(rows), -1, np.int64)
         codes[there] = numbers
         return codes, texts
+
+    @cached_property
+    def identifiers(self) -> Identifiers:
+        """The ids, to be matched with references."""
+        return Identifiers(*self._identified("id"))
+
+    @cached_property
+    def scoped_identifiers(self) -> Identifiers:
+        """The sids, those of one element being a scope."""
+        elements, ranges = self._identified("sid")
+        return Identifiers(elements, ranges, self.index.parent[elements])
+
+    def _identified(self, name: str) -> tuple[Array, Ranges]:
+        """The elements that have an attribute, and its values; without these where entities are."""
+        every = self.index.attributed
+        rows = Rows(len(every), owners=len(every), origin=self, ordinals=every)
+        there, ranges = self._attribute(rows, name)
+        found = every if there is None else every[there]
+        mine = np.flatnonzero(~self._is_foreign(found))
+        return found[mine], ranges.part(0, 0) if self._entities else ranges.take(mine)
+
+    def strings(self, ranges: Ranges) -> list[str]:
+        """The values of attributes that are tokens."""
+        return strings_of(ranges, "token", attribute=True, entities=self._entities)
 
     # --- single elements, by their numbers in the document
 

@@ -25,6 +25,7 @@ __all__ = [
     "booleans_of",
     "factors_of",
     "floats_of",
+    "hashes_of",
     "integers_of",
     "plain_numbers_of",
     "strings_of",
@@ -137,11 +138,7 @@ def factors_of(ranges: Ranges) -> tuple[Array, Array]:
         few = _few(words, lengths)
         if few is not None:
             return few
-        mixed = lengths.astype(U)
-        for column in range(words.shape[1]):
-            mixed ^= words[:, column]
-            mixed *= _MIX
-            mixed ^= mixed >> U(29)
+        mixed = hashes_of(words, lengths)
         _, rows, numbers = np.unique(mixed, return_index=True, return_inverse=True)
         first = rows[numbers]
         if np.array_equal(words[first], words) and np.array_equal(lengths[first], lengths):
@@ -149,6 +146,16 @@ def factors_of(ranges: Ranges) -> tuple[Array, Array]:
     known: dict[bytes, int] = {}
     numbers = np.array([known.setdefault(text, len(known)) for text in ranges.texts()], np.int64)
     return numbers, np.unique(numbers, return_index=True)[1]
+
+
+def hashes_of(words: Array, lengths: Array) -> Array:
+    """A number (n,) for each text (n, k); different ones have the same by accident only."""
+    mixed = lengths.astype(U)
+    for column in range(words.shape[1]):
+        mixed ^= words[:, column]
+        mixed *= _MIX
+        mixed ^= mixed >> U(29)
+    return mixed
 
 
 def _few(words: Array, lengths: Array) -> tuple[Array, Array] | None:

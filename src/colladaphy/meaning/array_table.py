@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.columns.counting import counted
+from colladaphy.columns.distinct import rows_among
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy_schema.rows import Column, Masked, Rows
 
@@ -100,14 +101,6 @@ class Arrays:
     def rows_of(self, elements: Array) -> Array:
         """The rows of elements; -1 for those that are no arrays."""
         return rows_among(self.elements, elements)
-
-
-def rows_among(known: Array, elements: Array) -> Array:
-    """Where elements (n,) are among some that ascend; -1 for those that are not there."""
-    if not len(known):
-        return np.full(len(elements), -1, np.int64)
-    at = np.minimum(np.searchsorted(known, elements), len(known) - 1)
-    return np.where(known[at] == elements, at, -1)
 
 
 def _joined(parts: list[Any]) -> Array:

@@ -146,6 +146,8 @@ def _sizes(within: dict[int, list[tuple[int, int]]]) -> dict[int, int]:
 
 def duplicate_sids(context: Context) -> Iterator[Hit]:
     """Siblings of one scoped id."""
+    if context.columns.scoped_identifiers.all_differ():
+        return
     elements, texts = context.columns.with_attribute("sid")
     parents = context.parent[elements].tolist()
     if len(set(zip(parents, texts, strict=True))) == len(texts):

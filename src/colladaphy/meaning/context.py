@@ -84,6 +84,18 @@ class Reference:
     text: str
 
 
+@dataclass(frozen=True, slots=True)
+class Leads:
+    """Where a reference of elements (n,) leads."""
+
+    targets: Array
+    """(n,) the elements of the document; -1 for nothing."""
+    plain: Array
+    """(n,) which are written as ``#id``."""
+    present: Array
+    """(n,) which have the attribute."""
+
+
 class Context:
     """One document, for all rules."""
 
@@ -94,7 +106,7 @@ class Context:
         self._rows: dict[tuple[type[Rows], tuple[str, ...]], Rows] = {}
         self._firsts: dict[tuple[str, ...], dict[int, int]] = {}
         self._shared: dict[Callable[[Context], Any], Any] = {}
-        self._links: dict[tuple[int, str], tuple[Rows, tuple[Array, list[str], Array]]] = {}
+        self._leads: dict[tuple[str, str], Leads] = {}
 
     @cached_property
     def columns(self) -> Document:
@@ -315,39 +327,54 @@ class Context:
             ]
         return np.array(found, np.int64)
 
-    def links(self, rows: Rows, attribute: str) -> tuple[Array, list[str], Array]:
-        """A reference of some rows: numbers (n,), the different texts, and what these lead to.
-
-        -1 is the number of what has no such attribute, and the target of what leads nowhere.
-        """
-        key = (id(rows), attribute)
-        if key not in self._links:
-            numbers, texts = self.columns.factorized(rows, attribute)
-            self._links[key] = rows, (numbers, texts, self.targets(texts))
-        return self._links[key][1]
+    def leads(self, name: str, attribute: str) -> Leads:
+        """Where a reference of all elements of a name leads."""
+        key = (name, attribute)
+        if key not in self._leads:
+            rows, columns = self.rows(Rows, name), self.columns
+            there, ranges = columns.ranges(rows, attribute)
+            targets = columns.identifiers.referred(ranges)
+            plain = targets >= 0
+            left = np.flatnonzero(~plain)
+            if len(left):
+                texts = columns.strings(ranges.take(left))
+                targets[left] = self.targets(texts)
+                plain[left] = [text[:1] == "#" for text in texts]
+            if there is not None:
+                present = np.zeros(len(rows), np.bool_)
+                present[there] = True
+                every = np.full(len(rows), -1, np.int64), np.zeros(len(rows), np.bool_)
+                every[0][there], every[1][there] = targets, plain
+                self._leads[key] = Leads(*every, present)
+            else:
+                self._leads[key] = Leads(targets, plain, np.ones(len(rows), np.bool_))
+        return self._leads[key]
 
     def led(self, name: str, attribute: str, ordinals: Array | None = None) -> Array:
-        """What a reference of all elements of a name, or of some, leads to (n,); -1 for nothing."""
-        every = self.rows(Rows, name)
-        numbers, _, targets = self.links(every, attribute)
-        found: Array = np.append(targets, -1)[numbers]
+        """The elements (n,) that it leads to, for all of the name or for some; -1 for nothing."""
+        found = self.leads(name, attribute).targets
         if ordinals is None:
             return found
-        assert every.ordinals is not None
-        return found[np.searchsorted(every.ordinals, ordinals)]
+        every = self.rows(Rows, name).ordinals
+        assert every is not None
+        return found[np.searchsorted(every, ordinals)]
 
-    def doubtful(self, rows: Rows, attribute: str, expected: tuple[str, ...]) -> list[Reference]:
-        """The references of some rows but for those that lead to an expected element by ``#id``."""
-        numbers, texts, targets = self.links(rows, attribute)
-        good = self.is_named(targets, *expected)
-        good &= np.array([text[:1] == "#" for text in texts], np.bool_)
-        assert rows.ordinals is not None
-        bad = np.flatnonzero(~np.append(good, True)[numbers])
+    def doubtful(self, name: str, attribute: str, expected: tuple[str, ...]) -> list[Reference]:
+        """The references that are there, but do not lead to an expected element by ``#id``."""
+        rows = self.rows(Rows, name)
+        if not len(rows):
+            return []
+        leads = self.leads(name, attribute)
+        good = leads.plain & self.is_named(leads.targets, *expected)
+        doubtful = leads.present & ~good
+        if not doubtful.any():
+            return []
+        bad = rows.select(doubtful)
+        assert bad.ordinals is not None
+        texts = self.texts(bad, attribute)
         return [
-            Reference(element, texts[number])
-            for element, number in zip(
-                rows.ordinals[bad].tolist(), numbers[bad].tolist(), strict=True
-            )
+            Reference(element, text or "")
+            for element, text in zip(bad.ordinals.tolist(), texts, strict=True)
         ]
 
 

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import numbered
 from colladaphy.columns.spans import places_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.inputs import inputs_of
@@ -83,9 +84,9 @@ def _columns(faces: Faces) -> tuple[Array, ...]:
 
 def _merged(faces: Faces) -> Faces:
     """The faces of lists, with the lists of a geometry made one."""
-    geometries, first = np.unique(faces.geometries, return_index=True)
+    first, _ = numbered(faces.geometries)
     return Faces(
-        geometries, faces.corners, np.add.reduceat(faces.corner_counts, first),
+        faces.geometries[first], faces.corners, np.add.reduceat(faces.corner_counts, first),
         faces.sizes, np.add.reduceat(faces.size_counts, first),
     )  # fmt: skip
 

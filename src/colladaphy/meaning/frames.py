@@ -42,7 +42,7 @@ class _Placed:
         held = np.isin(mine, constraints_of(context).bodies) & (mine >= 0)
         instances, mine = instances[held], mine[held]
         odd = unclear_nodes(context)
-        targets = np.array([nodes.targets[element] for element in instances.tolist()], np.int64)
+        targets = nodes.moved_by(instances)
         self.known: Array = (targets >= 0) & ~np.isin(instances, list(doubtful(context)))
         """Of which instances it can be told where they stand."""
         if odd:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.columns.counting import counted
+from colladaphy.columns.distinct import numbered
 from colladaphy.findings import Severity
 from colladaphy.links.rules import WRONG_TYPE
 from colladaphy.meaning import geometry_rules
@@ -64,12 +65,13 @@ class Inputs:
         self.kinds_texts = [*semantics, ""]
         self.offsets: Array = counted(np.where(rows.offset.present, rows.offset.values, 0))
         self.sets: Array = np.where(rows.set.present, rows.set.values, -1)
-        self._texts, texts, targets = context.links(rows, "source")
-        self._different = [*texts, ""]
-        self.targets: Array = np.append(targets, -1)[self._texts]
+        leads = context.leads("input", "source")
+        self.targets: Array = leads.targets
         """(n,) the elements that they lead to in this document; -1 for none."""
         self.sources: Array = sources_of(context).rows_of(self.targets)
         """(n,) the rows of sources; -1 for what is not a source."""
+        self.plain: Array = leads.plain
+        """(n,) which say ``#id``."""
 
     def semantic(self, row: int) -> str:
         """The semantic of an input."""
@@ -77,12 +79,7 @@ class Inputs:
 
     def text(self, row: int) -> str:
         """The reference of an input."""
-        return self._different[int(self._texts[row])]
-
-    def is_local(self) -> Array:
-        """Which of them (n,) say ``#id``."""
-        found: Array = np.array([text[:1] == "#" for text in self._different], np.bool_)
-        return found[self._texts]
+        return self.context.columns.attribute_of(int(self.elements[row]), "source") or ""
 
     def are(self, *semantics: str) -> Array:
         """Which of them (n,) have one of some semantics."""
@@ -180,8 +177,8 @@ def links(context: Context) -> Iterator[Hit]:
 def _lead_right(context: Context, inputs: Inputs) -> Array:
     """Which inputs (n,) lead where most do: to sources, or to the vertices of their meshes."""
     is_vertex = inputs.are("VERTEX")
-    good = inputs.is_local() & (inputs.sources >= 0) & ~is_vertex
-    rows = np.flatnonzero(is_vertex & inputs.is_local())
+    good = inputs.plain & (inputs.sources >= 0) & ~is_vertex
+    rows = np.flatnonzero(is_vertex & inputs.plain)
     owners, targets = inputs.owners[rows], inputs.targets[rows]
     good[rows] = context.is_named(targets, "vertices") & context.is_named(owners, *PRIMITIVES)
     good[rows] &= context.parent[owners] == context.parent[targets]
@@ -210,7 +207,7 @@ def needed(context: Context) -> Iterator[Hit]:
 
 def _repeating(inputs: Inputs) -> Array:
     """The elements with inputs of the same semantic and set."""
-    _, sets = np.unique(inputs.sets, return_inverse=True)
+    _, sets = numbered(inputs.sets)
     keys = np.stack([inputs.owners, inputs.kinds, sets])
     order = np.lexsort(keys[::-1])
     keys = keys[:, order]

@@ -17,7 +17,6 @@ from colladaphy.meaning.context import Context, TextRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.references import NEEDED, URIS
 from colladaphy.source import rules as source_rules
-from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS", "expected_text", "reference_hits"]
 
@@ -31,7 +30,7 @@ def uris(context: Context) -> Iterator[Hit]:
     """References by URI."""
     for element, attribute, expected in URIS:
         if attribute:
-            for reference in context.doubtful(context.rows(Rows, element), attribute, expected):
+            for reference in context.doubtful(element, attribute, expected):
                 yield from reference_hits(
                     context, reference.element, attribute, reference.text, expected
                 )

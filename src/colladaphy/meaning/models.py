@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from functools import cached_property
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.distinct import distinct
+from colladaphy.columns.distinct import distinct, rows_among
 from colladaphy.errors import ColladaError
 from colladaphy.links.addresses import split_reference
 from colladaphy.links.names import c
@@ -38,11 +39,9 @@ def parts_of(context: Context) -> Parts:
     """The parts of the models of a document and of those that it refers to."""
     parts, rows = Parts(context.resource), context.rows(Rows, "instance_physics_model")
     assert rows.ordinals is not None
-    numbers, texts, targets = context.links(rows, "url")
-    good = context.is_named(targets, "physics_model")
-    good &= np.array([text[:1] == "#" for text in texts], np.bool_)
-    here = np.append(good, False)[numbers]
-    parts.know(rows.ordinals[here].tolist(), targets[numbers[here]].tolist())
+    leads = context.leads("instance_physics_model", "url")
+    here = leads.plain & context.is_named(leads.targets, "physics_model")
+    parts.know(rows.ordinals[here].tolist(), leads.targets[here].tolist())
     return parts
 
 
@@ -194,27 +193,45 @@ class Instanced:
         rows = context.rows(Rows, name)
         assert rows.ordinals is not None
         self.elements: Array = rows.ordinals.astype(np.int64)
-        self.texts = [text or "" for text in context.texts(rows, attribute)]
+        self._context, self._rows, self._attribute = context, rows, attribute
         self.around: Array = context.parent[rows.ordinals].astype(np.int64)
         """(n,) the instances of models that they stand in."""
         parts, home = context.shared(parts_of), context.resource
         self.lost: Array = np.zeros(len(rows), np.bool_)
         """(n,) which name nothing, though their model is there."""
-        around = self.around.tolist()
-        knowns: dict[int, dict[str, int]] = {}
-        for each in set(around):
-            model = parts.model(home, each)
-            here = model is not None and model[0] is home
-            knowns[each] = parts.own(home, kind).get(model[1], {}) if model and here else {}
-        named = [knowns[each].get(text, -1) for each, text in zip(around, self.texts, strict=True)]
-        for row in [row for row, found in enumerate(named) if found < 0]:
-            sid, model = self.texts[row].rpartition("/")[2], parts.model(home, around[row])
-            named[row] = knowns[around[row]].get(sid, -1)
-            # A model that is not there is reported at its instance.
-            if named[row] < 0 and model is not None:
-                self.lost[row] = sid not in parts.within(*model, kind)
-        self.parts: Array = np.array(named, np.int64)
+        self.parts: Array = self._directly(kind)
         """(n,) the elements that they name, in this document; -1 for none."""
+        for row in np.flatnonzero(self.parts < 0).tolist():
+            sid, model = (
+                self.texts[row].rpartition("/")[2],
+                parts.model(home, int(self.around[row])),
+            )
+            if model is None:  # which is reported at its instance
+                continue
+            if model[0] is home:
+                self.parts[row] = parts.own(home, kind).get(model[1], {}).get(sid, -1)
+            if self.parts[row] < 0:
+                self.lost[row] = sid not in parts.within(*model, kind)
+
+    def _directly(self, kind: str) -> Array:
+        """Those that are named by the sid alone, of models of the document."""
+        context, columns = self._context, self._context.columns
+        models = context.ordinals("instance_physics_model")
+        leads = context.leads("instance_physics_model", "url")
+        good = leads.plain & context.is_named(leads.targets, "physics_model")
+        scopes = np.append(np.where(good, leads.targets, -1), -1)[rows_among(models, self.around)]
+        there, ranges = columns.ranges(self._rows, self._attribute)
+        every = np.full(len(self.elements), -1, np.int64)
+        found = columns.scoped_identifiers.matched(
+            ranges, scopes if there is None else scopes[there]
+        )
+        every[slice(None) if there is None else there] = found
+        return np.where(context.is_named(every, kind), every, -1)
+
+    @cached_property
+    def texts(self) -> list[str]:
+        """What they say."""
+        return [text or "" for text in self._context.texts(self._rows, self._attribute)]
 
 
 def instanced_bodies(context: Context) -> Instanced:

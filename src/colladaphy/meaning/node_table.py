@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import rows_among
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.radians import written_as_radians
 from colladaphy.meaning.scene import degenerate_matrices
-from colladaphy_schema.rows import Rows
 
 __all__ = ["Nodes", "nodes_of", "odd_transforms", "unclear_nodes"]
 
@@ -24,32 +25,44 @@ class Nodes:
     def __init__(self, context: Context) -> None:
         self.context = context
         self.elements = context.ordinals("node")
-        rows = context.rows(Rows, "instance_rigid_body")
-        assert rows.ordinals is not None
-        numbers, _, found = context.links(rows, "target")
-        targets = np.append(found, -1)[numbers]
-        targets[~context.is_named(targets, "node")] = -1
-        self.targets = dict(zip(rows.ordinals.tolist(), targets.tolist(), strict=True))
-        """The nodes that instances of bodies move, by the instance; -1 for none."""
-        nodes = set(self.elements.tolist())
-        parents: list[int] = context.parent[self.elements].tolist()
-        self.parents = dict(zip(self.elements.tolist(), parents, strict=True))
+        self.instances: Array = context.ordinals("instance_rigid_body").astype(np.int64)
+        """(n,) the instances of bodies."""
+        targets = context.led("instance_rigid_body", "target")
+        self.moved: Array = np.where(context.is_named(targets, "node"), targets, -1)
+        """(n,) the nodes that these move; -1 for none."""
+        self.are_nested = bool(np.any(context.is_within(self.elements, "node")))
+        """Whether any node stands in a node."""
         self.holders: defaultdict[int, list[int]] = defaultdict(list)
         """The nodes that instance each node."""
-        for reference in context.references("url", "instance_node"):
-            target = context.target(reference.text)
-            if target in nodes:
-                self.holders[target].append(int(context.parent[reference.element]))
+        inner = context.led("instance_node", "url")
+        outer = context.parent[context.ordinals("instance_node")]
+        good = context.is_named(inner, "node")
+        for target, holder in zip(inner[good].tolist(), outer[good].tolist(), strict=True):
+            self.holders[target].append(holder)
         self._places: dict[int, int] = {}
         self.shown = self._scenes()
         """The visual scenes that are seen."""
 
+    @cached_property
+    def targets(self) -> dict[int, int]:
+        """The nodes that instances of bodies move, by the instance; -1 for none."""
+        return dict(zip(self.instances.tolist(), self.moved.tolist(), strict=True))
+
+    @cached_property
+    def parents(self) -> dict[int, int]:
+        """What is around each node."""
+        parents: list[int] = self.context.parent[self.elements].tolist()
+        return dict(zip(self.elements.tolist(), parents, strict=True))
+
+    def moved_by(self, instances: Array) -> Array:
+        """The nodes (n,) that instances of bodies move; -1 for none, and of what is none."""
+        found: Array = np.append(self.moved, -1)[rows_among(self.instances, instances)]
+        return found
+
     def _scenes(self) -> set[int]:
         """The visual scenes that are seen; all where none is instanced."""
-        context = self.context
-        references = context.references("url", "instance_visual_scene")
-        shown = {context.target(reference.text) for reference in references}
-        every = set(context.ordinals("visual_scene").tolist())
+        shown = set(self.context.led("instance_visual_scene", "url").tolist())
+        every = set(self.context.ordinals("visual_scene").tolist())
         return shown & every or every
 
     def above(self, node: int) -> int:

@@ -132,15 +132,14 @@ def _several(context: Context) -> Iterator[Hit]:
 def _apart(context: Context) -> Iterator[Hit]:
     """Bodies that move the same node, or nodes within each other."""
     nodes, bodies = nodes_of(context), bodies_of(context)
-    instances = np.array(sorted(nodes.targets), np.int64)
+    instances = nodes.instances
     if not len(instances):
         return
     above = _scenes_of(context, instances)
-    alone = not nodes.holders and not _nested(nodes)
+    alone = not nodes.holders and not nodes.are_nested
     if alone:
         # Nearly always every body has a node of its own.
-        targets = np.array([nodes.targets[each] for each in instances.tolist()], np.int64)
-        keys = (above * len(context.parent) + targets)[targets >= 0]
+        keys = (above * len(context.parent) + nodes.moved)[nodes.moved >= 0]
         if len(distinct(keys)) == len(keys):
             return
     scenes = above.tolist()
@@ -201,10 +200,6 @@ def _scenes_of(context: Context, instances: Array) -> Array:
     return np.array(found, np.int64)
 
 
-def _nested(nodes: Nodes) -> bool:
-    return any(parent in nodes.parents for parent in nodes.parents.values())
-
-
 def nowhere(context: Context) -> Iterator[Hit]:
     """Bodies of scenes in effect whose nodes are in no visual scene that is seen.
 
@@ -213,16 +208,17 @@ def nowhere(context: Context) -> Iterator[Hit]:
     nodes = nodes_of(context)
     if not nodes.shown:
         return
-    shown, parents = nodes.shown, nodes.parents
+    doubtful = (nodes.moved >= 0) & ~np.isin(context.parent[nodes.moved], list(nodes.shown))
     lost = [
         (instance, target)
-        for instance, target in nodes.targets.items()
-        if target >= 0 and parents[target] not in shown and not nodes.places(target)
+        for instance, target in zip(
+            nodes.instances[doubtful].tolist(), nodes.moved[doubtful].tolist(), strict=True
+        )
+        if not nodes.places(target)
     ]
     if not lost:
         return
-    references = context.references("url", "instance_physics_scene")
-    active = {context.target(reference.text) for reference in references}
+    active = set(context.led("instance_physics_scene", "url").tolist())
     scenes = context.ancestor(np.array([instance for instance, _ in lost]), "physics_scene")
     for (instance, target), scene in zip(lost, scenes.tolist(), strict=True):
         if scene in active:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct
 from colladaphy.columns.spans import places_of
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.context import Context
@@ -216,7 +217,7 @@ def _beyond(context: Context, table: Primitives) -> list[int]:
     np.minimum.at(limits, firsts[table.input_rows[rows]] + inputs.offsets[rows],
                   inputs.counts[rows])  # fmt: skip
     found: set[int] = set()
-    for stride in np.unique(strides[owners]).tolist():
+    for stride in distinct(strides[owners]).tolist():
         mine = np.flatnonzero(strides[owners] == stride)
         starts, lengths = table.list_starts[lists[mine]], table.list_lengths[lists[mine]]
         indices = table.indices

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import distinct, numbered
 from colladaphy.findings import Severity
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.array_table import NUMBER_ARRAYS, TOKEN_ARRAYS, accessors_of
@@ -73,7 +74,7 @@ def _unfit(context: Context) -> dict[int, str]:
     # There are few kinds of inputs, of elements of few names.
     keys = names.astype(np.int64) * len(inputs.kinds_texts) + inputs.kinds[rows]
     found: dict[int, str] = {}
-    _, firsts, which = np.unique(keys, return_index=True, return_inverse=True)
+    firsts, which = numbered(keys)
     for kind, first in enumerate(rows[firsts].tolist()):
         semantic = inputs.semantic(first)
         need = _NEEDS.get(context.name(int(inputs.owners[first])), {}).get(semantic)
@@ -216,7 +217,7 @@ def names(context: Context) -> Iterator[Hit]:
     keys = np.stack([accessors.owners[named], accessors.names[named]])
     order = np.lexsort(keys[::-1])
     same = (keys[:, order[1:]] == keys[:, order[:-1]]).all(axis=0)
-    doubtful = np.unique(keys[0, order[1:][same]])
+    doubtful = distinct(keys[0, order[1:][same]])
     if not len(doubtful):
         return
     tangents = [text for text in inputs.kinds_texts if text.endswith("_TANGENT")]

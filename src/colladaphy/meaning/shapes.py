@@ -211,9 +211,8 @@ def _profiled(context: Context) -> Array:
     if len(materials):
         users = context.rows(Rows, "instance_physics_material")
         assert users.ordinals is not None
-        numbers, _, targets = context.links(users, "url")
-        ours = np.append(np.isin(targets, materials), False)
-        mine = users.ordinals[ours[numbers]]
+        targets = context.led("instance_physics_material", "url")
+        mine = users.ordinals[np.isin(targets, materials)]
         inline = materials[context.is_within(materials, "shape", "technique_common")]
         holders = context.ancestor(
             np.concatenate([mine, inline]), "rigid_body", "instance_rigid_body"

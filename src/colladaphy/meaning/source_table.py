@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import rows_among
 from colladaphy.columns.spans import places_of
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.array_table import (
@@ -14,7 +15,6 @@ from colladaphy.meaning.array_table import (
     WordRows,
     accessors_of,
     arrays_of,
-    rows_among,
 )
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit

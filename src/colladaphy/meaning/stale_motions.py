@@ -37,7 +37,7 @@ def motions(context: Context) -> Iterator[Hit]:
     nodes, unclear = nodes_of(context), unclear_nodes(context)
     elements = distinct(np.concatenate([turned, placed]))
     holders = profile.holders(elements)
-    targets = np.array([nodes.targets.get(holder, -1) for holder in holders.tolist()], np.int64)
+    targets = nodes.moved_by(holders)
     parents = [
         reference.element
         for reference in context.references("parent", "instance_physics_model")

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import rows_among
 from colladaphy.columns.spans import places_of
-from colladaphy.meaning.array_table import rows_among
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.face_table import Faces, faces_of
 from colladaphy.meaning.inputs import inputs_of

@@ -13,7 +13,6 @@ from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.shape_table import shapes_of
 from colladaphy.meaning.surface_table import Surfaces, surfaces_of
-from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
 
@@ -29,13 +28,13 @@ def convex_meshes(context: Context) -> Iterator[Hit]:
     elements = context.ordinals("convex_mesh")
     if not len(elements):
         return
-    numbers, _, _ = context.links(context.rows(Rows, "convex_mesh"), "convex_hull_of")
+    stated = context.leads("convex_mesh", "convex_hull_of").present
     surfaces = surfaces_of(context)
     geometries = context.parent[elements].astype(np.int64)
     rows = surfaces.rows_of(geometries)
     doubtful = _without_volume(surfaces) | (surfaces.volumes < 0.0)
     doubtful |= surfaces.dents > _TOLERANCE * surfaces.extents
-    doubtful = np.append(doubtful, False)[rows] & (numbers < 0)
+    doubtful = np.append(doubtful, False)[rows] & ~stated
     for place in np.flatnonzero(doubtful).tolist():
         element, geometry, row = int(elements[place]), int(geometries[place]), int(rows[place])
         name = context.label(geometry)

@@ -82,14 +82,14 @@ def _other_unit(strength: float, size: float) -> str | None:
 
 def together(context: Context) -> Iterator[Hit]:
     """Scenes in effect that differ."""
-    references = context.references("url", "instance_physics_scene")
-    targets = [context.target(reference.text) for reference in references]
+    instances = context.ordinals("instance_physics_scene").tolist()
+    targets = context.led("instance_physics_scene", "url").tolist()
     seen: dict[int, int] = {}
-    for reference, target in zip(references, targets, strict=True):
-        before = seen.setdefault(target, reference.element)
-        if target >= 0 and before != reference.element:
+    for element, target in zip(instances, targets, strict=True):
+        before = seen.setdefault(target, element)
+        if target >= 0 and before != element:
             message = f"{context.label(target)} is instanced already."
-            yield Hit(link_rules.SCENE_TWICE, reference.element, message, (before,), "url")
+            yield Hit(link_rules.SCENE_TWICE, element, message, (before,), "url")
     known = list(dict.fromkeys(target for target in targets if target >= 0))
     if len(known) < 2:
         return
