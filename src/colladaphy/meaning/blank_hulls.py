@@ -13,7 +13,6 @@ from colladaphy.meaning.body_table import Bodies, bodies_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.shape_table import shapes_of
-from colladaphy_schema.rows import Rows
 
 __all__ = ["CHECKS"]
 
@@ -49,8 +48,8 @@ def nothings(context: Context) -> Iterator[Hit]:
     empty = elements[~np.isin(elements, full)]
     empty = empty[context.led("convex_mesh", "convex_hull_of", empty) < 0]
     # A reference that leads nowhere is told there.
-    numbers, _, _ = context.links(context.rows(Rows, "convex_mesh"), "convex_hull_of")
-    empty = empty[numbers[np.searchsorted(elements, empty)] < 0]
+    present = context.leads("convex_mesh", "convex_hull_of").present
+    empty = empty[~present[np.searchsorted(elements, empty)]]
     rows = shapes.mesh_rows[np.isin(shapes.geometries, context.parent[empty])]
     holders = shapes.holders[rows]
     silent = bodies.moves[holders] & np.isnan(bodies.effective_masses()[holders])
