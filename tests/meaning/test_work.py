@@ -13,7 +13,7 @@ import colladaphy
 
 ROOM = f"{colladaphy.__name__}/meaning/"
 FEW = 25
-"""Lines a body, as some texts are looked up one by one; what is done for whole arrays takes none."""
+"""Lines a body, as some texts are looked up; what is done for whole arrays takes none."""
 
 
 def lines(data: bytes) -> int:
