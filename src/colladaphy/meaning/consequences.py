@@ -134,8 +134,10 @@ FOLLOWING: Final = (
     Following(
         (NOT_RIGID,), (scene_rules.SCALE_ZERO, scene_rules.TRANSFORM_NUMBER), ("node",)
     ),
+    # A transform that is there twice moves what stands in its node once more.
     Following(
-        (MISSING,), (link_rules.DUPLICATE_SID,), ("node",), beside=True,
+        (MISSING, profile_rules.OLD_VALUE, *_FRAMES), (link_rules.DUPLICATE_SID,), ("node",),
+        beside=True,
         at=("matrix", "translate", "rotate", "scale", "skew", "lookat"),
     ),
     Following(

@@ -153,8 +153,10 @@ def frames(context: Context) -> Iterator[Hit]:
 
 
 def _beside(table: Constraints, placed: _Placed, row: int, ends: Array) -> tuple[int, ...]:
-    """The other attachment of a joint, and the instances of the bodies that it holds."""
-    return (int(table.attachments[row, 0]), *placed.elements[ends[ends >= 0]].tolist())
+    """The other attachment of a joint, the instances of the bodies that it holds, their nodes."""
+    instances = placed.elements[ends[ends >= 0]].tolist()
+    nodes = [nodes_of(placed.context).targets[instance] for instance in instances]
+    return (int(table.attachments[row, 0]), *instances, *(node for node in nodes if node >= 0))
 
 
 def _by_bodies(instances: Array, told: dict[int, Hit]) -> Iterator[Hit]:
