@@ -259,17 +259,42 @@ def addressed(context: Context, text: str) -> tuple[int, str] | str:
     if target < 0:
         return f"There is no element of the id {head!r}."
     for place, sid in enumerate(sids):
-        member = ""
-        inner = context.resource.sids.within(target, sid)
-        if inner is None and place == len(sids) - 1:
-            match = _SPLIT.match(sid)
-            if match is not None:
-                inner, member = context.resource.sids.within(target, match[1]), match[2]
-                sid = match[1]
+        match = _SPLIT.match(sid) if place == len(sids) - 1 else None
+        spellings = [(sid, ""), (match[1], match[2])] if match is not None else [(sid, "")]
+        inner, member = _inner(context, target, spellings)
+        sid = spellings[-1][0]
         if inner is None:
             return f"{context.label(target)} holds no sid {sid!r}."
         target = inner
     return target, member
+
+
+def _inner(
+    context: Context, scope: int, spellings: list[tuple[str, str]]
+) -> tuple[int | None, str]:
+    """The element of a sid, and the member; what is in techniques (of effects, or with values of
+    exporters' own) counts where nothing else has that sid.
+    """
+    for sid, member in spellings:
+        found = context.resource.sids.within(scope, sid)
+        if found is not None:
+            return found, member
+    end = context.columns.end_of(scope)
+    for sid, member in spellings:
+        for element in context.shared(_of_techniques).get(sid, ()):
+            if scope < element < end:
+                return element, member
+    return None, ""
+
+
+def _of_techniques(context: Context) -> dict[str, list[int]]:
+    """All elements by their sids, those in techniques too."""
+    every = context.columns.index.attributed
+    numbers, texts = context.columns.factorized(context.at(Rows, every), "sid")
+    found: dict[str, list[int]] = {}
+    for row in np.flatnonzero(numbers >= 0).tolist():
+        found.setdefault(texts[numbers[row]], []).append(int(every[row]))
+    return found
 
 
 def _width(context: Context, element: int, sampler: int, what: str, wanted: int) -> Iterator[Hit]:

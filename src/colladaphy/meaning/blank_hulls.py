@@ -36,9 +36,10 @@ def hulls(context: Context) -> Iterator[Hit]:
 
 
 def nothings(context: Context) -> Iterator[Hit]:
-    """Shapes without an extent, of bodies that state no mass: nothing says what they weigh.
+    """Shapes without an extent that have a density, of bodies that state no mass.
 
-    With a mass, a body without an extent is one as good as any.
+    With a mass, a body without an extent is one as good as any; that nobody says a mass or a
+    density is told elsewhere.
     """
     shapes, bodies = shapes_of(context), bodies_of(context)
     if not len(shapes.mesh_rows):
@@ -46,21 +47,20 @@ def nothings(context: Context) -> Iterator[Hit]:
     elements = context.ordinals("convex_mesh")
     full = context.parent[context.ordinals("source")]
     empty = elements[~np.isin(elements, full)]
-    empty = empty[context.led("convex_mesh", "convex_hull_of", empty) < 0]
     # A reference that leads nowhere is told there.
     present = context.leads("convex_mesh", "convex_hull_of").present
     empty = empty[~present[np.searchsorted(elements, empty)]]
     rows = shapes.mesh_rows[np.isin(shapes.geometries, context.parent[empty])]
     holders = shapes.holders[rows]
     silent = bodies.moves[holders] & np.isnan(bodies.effective_masses()[holders])
-    silent &= shapes.mass_elements[rows] < 0
+    silent &= (shapes.mass_elements[rows] < 0) & (shapes.density_elements[rows] >= 0)
     rows = rows[silent]
     rows = rows[~_weighed(bodies, shapes.holders[rows])]
     instances = context.first_children("instance_geometry")
     for row in rows.tolist():
         shape = int(shapes.elements[row])
         body = context.label(int(bodies.elements[shapes.holders[row]]))
-        message = f"The geometry is empty, and no mass of {body} is stated."
+        message = f"The geometry is empty, but {body} has its mass from the density of it."
         yield Hit(geometry_rules.NO_VOLUME, instances.get(shape, shape), message, (shape,), "url")
 
 
