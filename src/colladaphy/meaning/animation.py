@@ -182,7 +182,7 @@ def channels(context: Context) -> Iterator[Hit]:
             moved.setdefault(key, element)
         if other is not None:
             message = f"Another channel moves {text!r}, too."
-            yield Hit(animation_rules.CHANNEL_TWICE, element, message, (other,), "target")
+            yield Hit(animation_rules.CHANNEL_TWICE, element, message, (other, target), "target")
             continue
         members, width = _MEMBERS.get(name, (None, 0))
         if name == "source" and member:

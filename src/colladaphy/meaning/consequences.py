@@ -136,7 +136,9 @@ FOLLOWING: Final = (
     ),
     # A transform that is there twice moves what stands in its node once more.
     Following(
-        (MISSING, profile_rules.OLD_VALUE, *_FRAMES), (link_rules.DUPLICATE_SID,), ("node",),
+        (MISSING, profile_rules.OLD_VALUE, animation_rules.CHANNEL_TWICE, *_FRAMES),
+        (link_rules.DUPLICATE_SID,),
+        ("node",),
         beside=True,
         at=("matrix", "translate", "rotate", "scale", "skew", "lookat"),
     ),
