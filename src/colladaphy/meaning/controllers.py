@@ -67,6 +67,8 @@ def weights(context: Context) -> Iterator[Hit]:
         if vcount is None:
             continue
         total = int(vcount[1].sum())
+        if v is None and not total:
+            continue  # no vertex is moved
         if v is None or len(v[1]) != total * stride:
             there = 0 if v is None else len(v[1])
             message = f"{total} weights need {total * stride} indices, but there are {there}."

@@ -52,6 +52,7 @@ def limits(context: Context) -> Iterator[Hit]:
         there = (low_elements >= 0) & (high_elements >= 0)
         free = (low == _FREE[0]) & (high == _FREE[1])
         free |= np.isinf(low) & np.isinf(high)
+        free |= ((low == 1.0) & (high == -1.0)).all(axis=1)[:, None]  # so do others, of all axes
         wrong = there & (~(low <= high) & ~free).any(axis=1)
         what = "linear" if name == "linear" else "angular"
         for row in np.flatnonzero(wrong).tolist():
