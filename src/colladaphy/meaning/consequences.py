@@ -263,7 +263,7 @@ def _hit(hits: list[Hit | Finding], number: int) -> Hit:
     return hit
 
 
-_GRAVE: Final = (Severity.HINT, Severity.WARNING, Severity.ERROR)
+_GRAVE: Final = (Severity.HINT, Severity.INFO, Severity.WARNING, Severity.ERROR)
 
 
 def _severity(hit: Hit) -> Severity:

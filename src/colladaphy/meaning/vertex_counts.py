@@ -62,6 +62,8 @@ def _odd(context: Context) -> dict[int, tuple[int, list[int]]]:
     for element in context.ordinals("targets").tolist():
         mine = {base_of(context, int(context.parent[element])), *_targets(context, element)}
         sizes = {each: geometry_size(context, each) for each in mine}
+        if len({*sizes.values()}) < 2:  # as nearly always; each is for what all of them are
+            sizes = dict(list(sizes.items())[:2])
         for each in mine:
             wanted.setdefault(each, []).extend(
                 (size, element)
