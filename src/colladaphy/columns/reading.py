@@ -53,6 +53,7 @@ class Document:
         self._codes = codes_by_name(index, tags)
         self._tags = tags
         self._attribute_rows: Array | None = None
+        self._looked_at = 0
         self._names: dict[int, str] | None = None
 
     @classmethod
@@ -113,11 +114,26 @@ class Document:
         if codes is None:
             return foreign
         index = self.index
+        self._looked_at += len(rows)
+        if self._looked_at > len(index):  # so many that to know it of all costs less
+            return self._foreign[rows]
         above = index.parent[rows]
         while len(above) and bool(np.any(above > 0)):
             foreign |= self.have_code(above, codes)
             above = np.maximum(index.parent[above], 0)
         return foreign
+
+    @cached_property
+    def _foreign(self) -> Array:
+        """The same of all elements."""
+        parent = self.index.parent
+        found = self.have_code(parent, self._codes[_TECHNIQUE])
+        while True:
+            further = found | found[parent]
+            further[0] = False
+            if np.array_equal(further, found):
+                return found
+            found = further
 
     def names(self) -> dict[str, int]:
         """How many elements there are of each qualified name, those in techniques included."""

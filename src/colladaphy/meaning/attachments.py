@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from colladaphy.meaning import link_rules
 from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.comparing import matched
-from colladaphy.meaning.constraint_table import SIDES, constraints_of
+from colladaphy.meaning.constraint_table import SIDES, constraints_of, reference_at
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.links import reference_hits
@@ -28,7 +28,8 @@ def attachments(context: Context) -> Iterator[Hit]:
     table, parts = constraints_of(context), context.shared(parts_of)
     for side in range(len(SIDES)):
         for row in np.flatnonzero(~table.are_world[:, side] & (table.bodies[:, side] < 0)).tolist():
-            text, element = table.references[side][row], int(table.attachments[row, side])
+            element = int(table.attachments[row, side])
+            text = reference_at(context, element)
             model = int(context.parent[table.elements[row]])
             if parts.attached(context.resource, model, text) is None:
                 yield from reference_hits(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 from functools import cached_property
 from itertools import pairwise
@@ -29,8 +28,6 @@ _KINDS = {
     "instance_rigid_body": ("body", "rigid_body"),
     "instance_rigid_constraint": ("constraint", "rigid_constraint"),
 }
-_PLAIN = re.compile(r"(?:(?:[^/#%\n]++/[^/#%.\n]++)?+\n)*+")
-"""Paths of a sid in a model, a line each."""
 
 Array = NDArray[Any]
 
@@ -130,22 +127,6 @@ class Parts:
             return None
         body = self.named(*where, "rigid_body", path[-1])
         return None if body is None else (where[0], body)
-
-    def held(self, home: Resource, models: list[int], references: list[str]) -> list[int]:
-        """The bodies of this document that attachments within models mean; -1 for none."""
-        own, found = self.own(home, "rigid_body"), [-1] * len(references)
-        ids = {model: self.text(home, "physics_model", model, "id") for model in set(models)}
-        if _PLAIN.fullmatch("".join(f"{text}\n" for text in references)):  # as nearly all are
-            parts = [text.partition("/") for text in references]
-            found = [
-                own.get(model, {}).get(sid, -1) if head in (".", ids[model]) else -1
-                for model, (head, _, sid) in zip(models, parts, strict=True)
-            ]
-        for row in [row for row, body in enumerate(found) if body < 0 and references[row]]:
-            meant = self.attached(home, models[row], references[row])
-            if meant is not None and meant[0] is home:
-                found[row] = meant[1]
-        return found
 
     def _inner(self, home: Resource, model: int, name: str) -> tuple[Resource, int] | None:
         """The model that is instanced in one by the sid of the instance, or by its own id."""

@@ -22,13 +22,17 @@ class Profile:
     def __init__(self, context: Context) -> None:
         self.context = context
         self._firsts: dict[str, dict[int, int]] = {}
+        self._elements: dict[str, Array] = {}
         self._lists: dict[str, Lists] = {}
 
     def elements(self, name: str) -> Array:
         """All elements of a name."""
         columns = self.context.columns
-        parts = [columns.index.rows(code) for code in columns.codes_of(p(name))]
-        return np.sort(np.concatenate(parts)) if parts else np.zeros(0, np.int32)
+        if name not in self._elements:
+            parts = [columns.index.rows(code) for code in columns.codes_of(p(name))]
+            found = np.concatenate(parts) if parts else np.zeros(0, np.int32)
+            self._elements[name] = np.sort(found) if len(parts) > 1 else found
+        return self._elements[name]
 
     def child(self, parent: int, name: str) -> int:
         """The first child of a name; -1 for none."""
