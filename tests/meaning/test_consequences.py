@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from tests.meaning.test_cases import FAULTS
+from tests.meaning.test_cases import BASES, FAULTS
 from tests.meaning.test_loading import edited
 
 import colladaphy
@@ -59,3 +59,13 @@ def test_what_is_left_is_as_grave(world: World, seed: int, times: int) -> None:
     one, other = (max((grave.index(found.severity) for found in each), default=-1)
                   for each in (kept, every))  # fmt: skip
     assert one == other
+
+
+def test_only_what_is_named_by_sid_follows_from_sids_that_are_there_twice() -> None:
+    text = BASES["physics"].read_text("utf-8")
+    text = text.replace('sid="stone"', 'sid="rod"').replace('url="#steel"', 'url="#tin"')
+    found = {(finding.code, (finding.path or "").rpartition("/")[2].partition("[")[0])
+             for finding in colladaphy.validate(text.encode())}  # fmt: skip
+    assert ("link-duplicate-sid", "rigid_body") in found
+    assert ("link-missing", "instance_physics_material") in found
+    assert ("link-missing", "instance_rigid_body") not in found

@@ -45,6 +45,8 @@ class Following(NamedTuple):
     """The same of the causes, besides where they stand themselves."""
     at: tuple[str, ...] = ()
     """Only causes at elements of such names."""
+    of: tuple[str, ...] = ()
+    """Only what follows at elements of such names."""
 
 
 _BODIES = ("rigid_body", "instance_rigid_body")
@@ -112,6 +114,7 @@ FOLLOWING: Final = (
         (link_rules.DUPLICATE_SID,),
         ("physics_model",),
         at=("rigid_body", "rigid_constraint"),
+        of=("attachment", "ref_attachment"),
     ),
     Following(
         (MISSING,),
@@ -119,8 +122,12 @@ FOLLOWING: Final = (
         ("physics_model",),
         beside=True,
         at=("rigid_body", "rigid_constraint"),
+        of=("instance_rigid_body", "instance_rigid_constraint"),
     ),
-    Following((link_rules.TEXTURE_SAMPLER, MISSING), (link_rules.DUPLICATE_SID,), ("effect",)),
+    Following(
+        (link_rules.TEXTURE_SAMPLER, MISSING), (link_rules.DUPLICATE_SID,), ("effect",),
+        of=("texture", "param"),
+    ),
     # A joint that is not there closes no loop, and what is called so has no other end.
     Following(
         (kinematics_rules.LOOP,), (MISSING, WRONG_TYPE), ("kinematics_model",),
@@ -245,6 +252,10 @@ def _let_follow(
     by_place: dict[int, int] = {}
     for number, place in _placed(context, each, hits, causes, True, each.causes_beside, each.at):
         by_place.setdefault(place, number)
+    if each.of:
+        elements = np.array([_hit(hits, number).element for number in following], np.int64)
+        mine = context.is_named(elements, *each.of).tolist()
+        following = [number for number, good in zip(following, mine, strict=True) if good]
     found: set[int] = set()
     for number, place in _placed(context, each, hits, following, not each.beside, each.beside):
         if place < 0 or place not in by_place or number in found:
