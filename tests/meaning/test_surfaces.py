@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from itertools import pairwise
 
 import pytest
 from hypothesis import given
@@ -21,18 +22,46 @@ CUBE = list("000100110010001101111011")
 FACES = ["0 3 2 1", "4 5 6 7", "0 1 5 4", "1 2 6 5", "2 3 7 6", "3 0 4 7"]
 
 
-def geometry(name: str, points: list[str], faces: list[str]) -> str:
-    sizes, corners = (" ".join(parts) for parts in (
-        [str(len(face.split())) for face in faces], faces))  # fmt: skip
+def fan(face: str) -> list[str]:
+    first, *rest = face.split()
+    return [f"{first} {one} {other}" for one, other in pairwise(rest)]
+
+
+def strip(face: str) -> str:
+    """The corners from both ends in turns."""
+    left = face.split()
+    return " ".join(left.pop(0 if place < 2 or place % 2 else -1) for place in range(len(left)))
+
+
+def pieces(name: str, faces: list[str], primitive: str) -> str:
+    """Faces as primitives of a kind; the last one of those of any kind is alone."""
+    vertex = f'<input semantic="VERTEX" source="#{name}-v" offset="0"/>'
+    if primitive == "several":
+        cuts = {"triangles": (0, 2), "polylist": (2, 4), "polygons": (4, 5), "tristrips": (5, None)}
+        parts = [pieces(name, faces[slice(*cut)], each) for each, cut in cuts.items()]
+        return "".join(parts)
+    if primitive == "triangles":
+        lists = [" ".join(each for face in faces for each in fan(face))]
+        count = sum(len(fan(face)) for face in faces)
+    elif primitive == "polylist":
+        lists, count = [" ".join(faces)], len(faces)
+    else:
+        lists = [strip(face) if primitive == "tristrips" else face for face in faces]
+        count = len(faces)
+    sizes = " ".join(str(len(face.split())) for face in faces)
+    vcount = f"<vcount>{sizes}</vcount>" if primitive == "polylist" else ""
+    inner = "".join(f"<p>{each}</p>" for each in lists)
+    return f'<{primitive} count="{count}">{vertex}{vcount}{inner}</{primitive}>'
+
+
+def geometry(name: str, points: list[str], faces: list[str], primitive: str = "polylist") -> str:
     return (
         f'<geometry id="{name}"><convex_mesh><source id="{name}-p"><float_array id="{name}-a" '
         f'count="{len(points)}">{" ".join(points)}</float_array><technique_common><accessor '
         f'source="#{name}-a" count="{len(points) // 3}" stride="3"><param name="X" type="float"/>'
         '<param name="Y" type="float"/><param name="Z" type="float"/></accessor>'
         f'</technique_common></source><vertices id="{name}-v"><input semantic="POSITION" '
-        f'source="#{name}-p"/></vertices><polylist count="{len(faces)}"><input semantic="VERTEX" '
-        f'source="#{name}-v" offset="0"/><vcount>{sizes}</vcount><p>{corners}</p></polylist>'
-        "</convex_mesh></geometry>"
+        f'source="#{name}-p"/></vertices>{pieces(name, faces, primitive)}</convex_mesh></geometry>'
     )
 
 
@@ -61,8 +90,8 @@ FOUND = {
 }  # fmt: skip
 
 
-def found(*names: str) -> Counter[str]:
-    text = "".join(geometry(f"g{at}", *KINDS[name]) for at, name in enumerate(names))
+def found(*names: str, primitive: str = "polylist") -> Counter[str]:
+    text = "".join(geometry(f"g{at}", *KINDS[name], primitive) for at, name in enumerate(names))
     report = colladaphy.validate((HEAD + text + TAIL).encode())
     return Counter(finding.code for finding in report if finding.code.startswith("geometry-"))
 
@@ -70,6 +99,14 @@ def found(*names: str) -> Counter[str]:
 @pytest.mark.parametrize("name", KINDS)
 def test_a_surface_alone(name: str) -> None:
     assert found(name) == Counter([FOUND[name]] if name in FOUND else [])
+
+
+@pytest.mark.parametrize("primitive", ["triangles", "polygons", "trifans", "tristrips", "several"])
+@pytest.mark.parametrize("name", KINDS)
+def test_faces_of_other_primitives(name: str, primitive: str) -> None:
+    assert found(name, "whole", primitive=primitive) == Counter(
+        [FOUND[name]] if name in FOUND else []
+    )
 
 
 @given(st.lists(st.sampled_from(sorted(KINDS)), min_size=1, max_size=8), st.integers(1, 200))
