@@ -50,6 +50,7 @@ class Following(NamedTuple):
 
 
 _BODIES = ("rigid_body", "instance_rigid_body")
+_POSES = ("position", "orientation")
 _FRAMES = (physics_rules.FRAMES_APART, physics_rules.FRAMES_TURNED)
 _PRIMITIVES = ("lines", "linestrips", "polygons", "polylist", "triangles", "trifans", "tristrips")
 _OWNERS = (*_PRIMITIVES, "vertices", "control_vertices", "joints", "vertex_weights", "targets",
@@ -68,35 +69,51 @@ FOLLOWING: Final = (
     # A node that is another body's stands elsewhere.
     Following(
         (profile_rules.OLD_VALUE,), (physics_rules.NODE_SHARED,), ("instance_rigid_body",),
-        causes_beside=True,
+        causes_beside=True, of=_POSES,
     ),
     Following(
-        (profile_rules.OLD_VALUE,), _FRAMES, ("instance_rigid_body",), causes_beside=True
+        (profile_rules.OLD_VALUE,), _FRAMES, ("instance_rigid_body",), causes_beside=True,
+        of=_POSES,
+    ),
+    # Where the ends of a joint are, and how far they may move.
+    Following(
+        (profile_rules.OLD_VALUE,),
+        (*_FRAMES, physics_rules.JOINT_SELF, physics_rules.JOINT_FIXED),
+        ("rigid_constraint",),
+        of=_POSES,
     ),
     Following(
         (profile_rules.OLD_VALUE,),
-        (*_FRAMES, physics_rules.JOINT_LIMITS, physics_rules.JOINT_RADIANS,
-         physics_rules.JOINT_SELF, physics_rules.JOINT_FIXED, physics_rules.JOINT_TARGET),
+        (physics_rules.JOINT_LIMITS, physics_rules.JOINT_RADIANS, physics_rules.JOINT_TARGET),
         ("rigid_constraint",),
+        of=("min", "max", "stiffness", "damping", "target_value", "linear_spring",
+            "angular_spring"),
     ),
+    Following((profile_rules.OLD_VALUE,), _FRAMES, ("rigid_constraint",), of=("min", "max")),
     Following((physics_rules.MATERIAL_FRICTIONS,), (physics_rules.MATERIAL_RANGE,)),
     Following(
-        (profile_rules.OLD_VALUE,), (physics_rules.MATERIAL_FRICTIONS,), ("physics_material",)
+        (profile_rules.OLD_VALUE,), (physics_rules.MATERIAL_FRICTIONS,), ("physics_material",),
+        of=("static_friction", "dynamic_friction"),
     ),
     # Of a shape that is none it is not known how it stands, or what it weighs.
     Following(
         (profile_rules.OLD_VALUE,),
-        (physics_rules.SHAPE_SIZE, physics_rules.MASS_DENSITY, MISSING, WRONG_TYPE),
+        (physics_rules.SHAPE_SIZE, MISSING, WRONG_TYPE),
         ("shape",),
         beside=True,
     ),
+    Following(
+        (profile_rules.OLD_VALUE,), (physics_rules.MASS_DENSITY,), ("shape",), beside=True,
+        of=("mass", "density", "inertia"),
+    ),
     Following((profile_rules.OLD_VALUE,), (profile_rules.VALUE,)),
     Following(
-        (profile_rules.OLD_VALUE, physics_rules.MASS_SUM), (profile_rules.UNION,), ("rigid_body",)
+        (profile_rules.OLD_VALUE, physics_rules.MASS_SUM), (profile_rules.UNION,), ("rigid_body",),
+        of=("mass", "inertia"),
     ),
     Following(
         (profile_rules.OLD_VALUE,), (physics_rules.MASS_ZERO, physics_rules.MASS_SUM),
-        ("rigid_body",),
+        ("rigid_body",), of=("mass", "inertia"),
     ),
     Following(
         (profile_rules.SYSTEM_ID,), (profile_rules.TWICE, profile_rules.UNION),
@@ -160,8 +177,12 @@ FOLLOWING: Final = (
     # With a mass, or a size, that is wrong or has changed there is nothing to compare with.
     Following(
         (physics_rules.INERTIA_SIZE,),
-        (physics_rules.MASS_DENSITY, physics_rules.MASS_SUM, profile_rules.OLD_VALUE),
+        (physics_rules.MASS_DENSITY, physics_rules.MASS_SUM),
         _BODIES,
+    ),
+    Following(
+        (physics_rules.INERTIA_SIZE,), (profile_rules.OLD_VALUE,), _BODIES,
+        at=("mass", "inertia", "density", "lengths", "radius", "radii", "length"),
     ),
     Following((physics_rules.MASS_SUM,), (physics_rules.MASS_DENSITY,), _BODIES),
     # Values that are read in another way than they were written.
@@ -186,13 +207,15 @@ FOLLOWING: Final = (
     ),
     Following(
         (animation_rules.OUTPUT_WIDTH,),
-        (animation_rules.KEY_COUNT, geometry_rules.INPUT_MISSING, geometry_rules.INPUT_TWICE,
-         geometry_rules.INPUT_VALUES),
+        (animation_rules.KEY_COUNT, geometry_rules.INPUT_TWICE),
         ("sampler",),
         beside=True,
     ),
     Following(
-        (link_rules.VERTEX_INPUT,), (*_OF_INPUTS, geometry_rules.INDEX_RANGE), _PRIMITIVES,
+        (link_rules.VERTEX_INPUT,),
+        (WRONG_TYPE, geometry_rules.INPUT_VALUES, geometry_rules.INPUT_TWICE,
+         geometry_rules.INDEX_LACKING, geometry_rules.PRIMITIVE_COUNT),
+        _PRIMITIVES,
         beside=True,
     ),
     Following((geometry_rules.INDEX_RANGE,), _OF_INPUTS, _PRIMITIVES),
