@@ -11,8 +11,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from functools import cached_property
 from itertools import islice
-from os.path import realpath
+from os.path import normpath, realpath
+from pathlib import PurePath
 from typing import Any
+from urllib.parse import unquote
 
 from lxml import etree
 
@@ -232,6 +234,14 @@ class Resource:
         if self.member is not None:
             return f"!{self.member}"
         return None if self.file is None else realpath(self.file)
+
+    def is_own(self, file: str) -> bool:
+        """Whether a relative reference to a file is one to this document."""
+        own, name = self.member or self.file, unquote(file)
+        if own is None or PurePath(own).name != PurePath(name).name:
+            return False
+        where = str(PurePath(own).parent / name)
+        return (f"!{normpath(where)}" if self.member else realpath(where)) == self._identity
 
     def _is_same(self, other: Resource) -> bool:
         return self._identity is not None and self._identity == other._identity

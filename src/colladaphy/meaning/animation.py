@@ -205,17 +205,25 @@ class _Clips:
     def __init__(self, context: Context) -> None:
         self._context = context
         self._by_animation: dict[int, set[int]] = {}
+        self._some_are_lost = False
         for reference in context.references("url", "instance_animation"):
             animation = context.target(reference.text.strip())
+            here = reference.text.strip().find("#") <= 0
+            if here and (animation < 0 or context.name(animation) != "animation"):
+                self._some_are_lost = True
             clip = int(context.parent[reference.element])
             self._by_animation.setdefault(animation, set()).add(clip)
 
     def of(self, element: int) -> tuple[set[int], set[int]]:
         """When a channel moves, and when others move that move at the same time."""
         found: set[int] = set()
+        around = int(self._context.parent[element])
         while element >= 0 and self._by_animation:
             found |= self._by_animation.get(element, set())
             element = int(self._context.parent[element])
+        if not found and self._some_are_lost:
+            # It may be that of a clip that leads nowhere: only with its own is it surely played.
+            return {self._SOME - 1 - around}, {self._SOME - 1 - around}
         if not found:
             return {self._ALWAYS}, {self._ALWAYS, self._SOME}
         return found | {self._SOME}, found | {self._ALWAYS}

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.findings import Finding, Rule, Severity
+from colladaphy.links.names import c, p
 from colladaphy.links.rules import MISSING, NOT_RIGID, WRONG_TYPE
 from colladaphy.meaning import (
     animation_rules,
@@ -89,7 +90,6 @@ FOLLOWING: Final = (
         of=("min", "max", "stiffness", "damping", "target_value", "linear_spring",
             "angular_spring"),
     ),
-    Following((profile_rules.OLD_VALUE,), _FRAMES, ("rigid_constraint",), of=("min", "max")),
     Following((physics_rules.MATERIAL_FRICTIONS,), (physics_rules.MATERIAL_RANGE,)),
     Following(
         (profile_rules.OLD_VALUE,), (physics_rules.MATERIAL_FRICTIONS,), ("physics_material",),
@@ -150,11 +150,6 @@ FOLLOWING: Final = (
         (kinematics_rules.LOOP,), (MISSING, WRONG_TYPE), ("kinematics_model",),
         at=("attachment_full", "attachment_start", "attachment_end"),
     ),
-    # Whether two channels move at a time is not known without their clips.
-    Following(
-        (animation_rules.CHANNEL_TWICE,), (MISSING, WRONG_TYPE), ("COLLADA",),
-        at=("instance_animation",),
-    ),
     Following(
         (NOT_RIGID,), (scene_rules.SCALE_ZERO, scene_rules.TRANSFORM_NUMBER), ("node",)
     ),
@@ -169,10 +164,6 @@ FOLLOWING: Final = (
     Following(
         (kinematics_rules.JOINT_TWICE, kinematics_rules.AXIS_TWICE),
         (link_rules.DUPLICATE_SID,), ("link", "axis_info"), at=("link", "axis_info"),
-    ),
-    # A node that another would have shown.
-    Following(
-        (link_rules.NODE_NOWHERE,), (MISSING, WRONG_TYPE), ("COLLADA",), at=("instance_node",)
     ),
     # With a mass, or a size, that is wrong or has changed there is nothing to compare with.
     Following(
@@ -277,7 +268,7 @@ def _let_follow(
         by_place.setdefault(place, number)
     if each.of:
         elements = np.array([_hit(hits, number).element for number in following], np.int64)
-        mine = context.is_named(elements, *each.of).tolist()
+        mine = _are_called(context, elements, each.of).tolist()
         following = [number for number, good in zip(following, mine, strict=True) if good]
     found: set[int] = set()
     for number, place in _placed(context, each, hits, following, not each.beside, each.beside):
@@ -324,8 +315,15 @@ def _placed(
     elements = np.array(wanted, np.int64)
     places = _places(context, elements, each.within)
     if at:
-        places[~context.is_named(elements, *at)] = -1
+        places[~_are_called(context, elements, at)] = -1
     return zip(owners, places.tolist(), strict=True)
+
+
+def _are_called(context: Context, elements: Array, names: tuple[str, ...]) -> Array:
+    """Which elements (n,) have one of some names, in the common profile or in the pe profile."""
+    codes = [code for name in names for tag in (c(name), p(name))
+             for code in context.columns.codes_of(tag)]  # fmt: skip
+    return context.columns.have_code(elements, codes)
 
 
 def _places(context: Context, elements: Array, names: tuple[str, ...]) -> Array:

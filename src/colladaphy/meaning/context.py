@@ -309,8 +309,16 @@ class Context:
         ]
 
     def target(self, text: str | None) -> int:
-        """The element of this document that a URI such as ``#id``, or an id, means; -1 for none."""
-        return self.named(text.removeprefix("#")) if text else -1
+        """The element of this document that a URI such as ``#id``, or an id, means; -1 for none.
+
+        The URI may name the file of the document, too.
+        """
+        if not text:
+            return -1
+        file, sign, id = text.partition("#")
+        if file and sign and self.resource.is_own(file):
+            return self.named(id)
+        return self.named(text.removeprefix("#"))
 
     def named(self, id: str) -> int:
         """The element of an id as a reference spells it, which may escape signs; -1 for none."""

@@ -220,8 +220,14 @@ def nowhere(context: Context) -> Iterator[Hit]:
         return
     active = set(context.led("instance_physics_scene", "url").tolist())
     scenes = context.ancestor(np.array([instance for instance, _ in lost]), "physics_scene")
-    for (instance, target), scene in zip(lost, scenes.tolist(), strict=True):
-        if scene in active:
+    lent = context.ancestor(np.array([target for _, target in lost]), "library_nodes") >= 0
+    # An instance that leads nowhere, which is told, may be that of any node in a library.
+    lent &= any(
+        reference.text.strip().find("#") <= 0
+        for reference in context.doubtful("instance_node", "url", ("node",))
+    )
+    for (instance, target), scene, doubt in zip(lost, scenes.tolist(), lent.tolist(), strict=True):
+        if scene in active and not doubt:
             message = f"{context.label(target)} stands in no visual scene that is instanced."
             yield Hit(link_rules.NODE_NOWHERE, instance, message, (target,), "target")
 
