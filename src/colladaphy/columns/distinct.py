@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["distinct", "numbered", "rows_among"]
+__all__ = ["are_among", "distinct", "numbered", "rows_among"]
 
 
 def distinct(values: NDArray[Any]) -> NDArray[Any]:
@@ -31,6 +32,15 @@ def numbered(values: NDArray[Any]) -> tuple[NDArray[np.int64], NDArray[np.int64]
     which = np.empty(len(made), np.int64)
     which[order] = np.cumsum(new) - 1
     return order[new], which
+
+
+def are_among(elements: NDArray[Any], others: NDArray[Any] | Collection[int]) -> NDArray[np.bool_]:
+    """Which elements (of any shape) are among others; for what is as close together as these are.
+
+    Among many, `numpy.isin` would sort them by `numpy.unique` where a document is small.
+    """
+    wanted = others if isinstance(others, np.ndarray) else np.array(list(others), np.int64)
+    return np.isin(elements, wanted, kind="table")
 
 
 def rows_among(known: NDArray[Any], elements: NDArray[Any]) -> NDArray[np.int64]:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import are_among
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.body_table import Bodies, bodies_of
 from colladaphy.meaning.context import Context
@@ -27,7 +28,7 @@ def hulls(context: Context) -> Iterator[Hit]:
     if not len(elements) or not len(strange):
         return
     contents = dict(zip(context.parent[strange].tolist(), strange.tolist(), strict=True))
-    used = np.isin(context.parent[elements], shapes_of(context).geometries)
+    used = are_among(context.parent[elements], shapes_of(context).geometries)
     for element, target in zip(elements[used].tolist(), targets[used].tolist(), strict=True):
         content = contents.get(target)
         if content is not None:
@@ -46,11 +47,11 @@ def nothings(context: Context) -> Iterator[Hit]:
         return
     elements = context.ordinals("convex_mesh")
     full = context.parent[context.ordinals("source")]
-    empty = elements[~np.isin(elements, full)]
+    empty = elements[~are_among(elements, full)]
     # A reference that leads nowhere is told there.
     present = context.leads("convex_mesh", "convex_hull_of").present
     empty = empty[~present[np.searchsorted(elements, empty)]]
-    rows = shapes.mesh_rows[np.isin(shapes.geometries, context.parent[empty])]
+    rows = shapes.mesh_rows[are_among(shapes.geometries, context.parent[empty])]
     holders = shapes.holders[rows]
     silent = bodies.moves[holders] & np.isnan(bodies.effective_masses()[holders])
     silent &= (shapes.mass_elements[rows] < 0) & (shapes.density_elements[rows] >= 0)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import are_among
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.models import instanced_bodies
 from colladaphy_schema.rows import Rows
@@ -30,7 +31,7 @@ class Bodies:
         assert rows.ordinals is not None
         self.elements: Array = rows.ordinals.astype(np.int64)
         count = len(rows)
-        is_body = np.isin(self.elements, context.ordinals("rigid_body"))
+        is_body = are_among(self.elements, context.ordinals("rigid_body"))
         self.is_instance: Array = ~is_body
         common = context.children(rows, "technique_common", Rows)
         at = common.owner

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import numpy as np
 
+from colladaphy.columns.distinct import are_among
 from colladaphy.findings import Severity
 from colladaphy.links.names import MOST_INSTANCES
 from colladaphy.links.rules import BUDGET, CYCLE
@@ -40,7 +41,7 @@ def circles(context: Context) -> Iterator[Hit]:
         there = context.is_named(targets, *kinds)
         good = np.flatnonzero((around >= 0) & there)
         if kinds != ("node",):  # what holds nothing closes no circle
-            good = good[np.isin(targets[good], around[good])]
+            good = good[are_among(targets[good], around[good])]
         if not len(good):
             continue
         below: defaultdict[int, list[tuple[int, int]]] = defaultdict(list)

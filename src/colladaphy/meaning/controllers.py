@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.columns.counting import counted
+from colladaphy.columns.distinct import distinct
 from colladaphy.findings import Severity
 from colladaphy.links.rules import MISSING, WRONG_TYPE
 from colladaphy.meaning import animation_rules
@@ -211,7 +212,7 @@ def _lost_skeletons(context: Context) -> frozenset[int]:
     assert roots.ordinals is not None
     targets = context.targets(text.strip() for text in roots.value)
     lost = roots.ordinals[~context.is_named(targets, "node")]
-    instances = context.at(Rows, np.unique(context.parent[lost]))
+    instances = context.at(Rows, distinct(context.parent[lost]))
     return frozenset(context.targets(context.texts(instances, "url")).tolist())
 
 

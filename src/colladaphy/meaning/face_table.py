@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.distinct import numbered
+from colladaphy.columns.distinct import are_among, numbered
 from colladaphy.columns.spans import places_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.inputs import inputs_of
@@ -60,7 +60,7 @@ def faces_of(context: Context) -> Faces:
     around = context.ancestor(table.elements, "geometry")
     # Of what is not counted right, nobody can tell the faces.
     wrong = around[sorted(miscounted(context))]
-    good = (around >= 0) & ~np.isin(around, wrong)
+    good = (around >= 0) & ~are_among(around, wrong)
     inputs = inputs_of(context)
     rows = inputs.first(table.elements, "VERTEX")
     good &= rows >= 0

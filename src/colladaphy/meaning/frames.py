@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import are_among
 from colladaphy.links.poses import Poses, rotate_vectors
 from colladaphy.meaning import physics_rules
 from colladaphy.meaning.body_table import bodies_of
@@ -39,11 +40,11 @@ class _Placed:
         nodes, bodies = nodes_of(context), bodies_of(context)
         instances = context.ordinals("instance_rigid_body").astype(np.int64)
         mine = bodies.body[np.searchsorted(bodies.elements, instances)]
-        held = np.isin(mine, constraints_of(context).bodies) & (mine >= 0)
+        held = are_among(mine, constraints_of(context).bodies) & (mine >= 0)
         instances, mine = instances[held], mine[held]
         odd = unclear_nodes(context)
         targets = nodes.moved_by(instances)
-        self.known: Array = (targets >= 0) & ~np.isin(instances, list(doubtful(context)))
+        self.known: Array = (targets >= 0) & ~are_among(instances, doubtful(context))
         """Of which instances it can be told where they stand."""
         if odd:
             self.known[self.known] = [not odd & set(nodes.chain(target))
@@ -208,7 +209,7 @@ def _pairs(context: Context, table: Constraints) -> tuple[Array, Array]:
     """
     placed, used = context.shared(_Placed), instanced_constraints(context)
     mine, rows = matched(table.elements, used.parts)
-    faulty = np.isin(table.attachments[rows], list(unclear_nodes(context))).any(axis=1)
+    faulty = are_among(table.attachments[rows], unclear_nodes(context)).any(axis=1)
     good = ~(faulty | _disabled(context)[rows])
     mine, rows = mine[good], rows[good]
     # The world is at rest, but a model in a model may stand anywhere.

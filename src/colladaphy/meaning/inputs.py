@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.columns.counting import counted
-from colladaphy.columns.distinct import numbered
+from colladaphy.columns.distinct import are_among, numbered
 from colladaphy.findings import Severity
 from colladaphy.links.rules import WRONG_TYPE
 from colladaphy.meaning import geometry_rules
@@ -197,7 +197,7 @@ def needed(context: Context) -> Iterator[Hit]:
         owners = context.ordinals(name).astype(np.int64)
         if not len(owners):
             continue
-        doubtful = np.isin(owners, repeating)
+        doubtful = are_among(owners, repeating)
         for semantic in wanted:
             doubtful |= inputs.first(owners, semantic) < 0
         for owner in owners[doubtful].tolist():

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.distinct import distinct
+from colladaphy.columns.distinct import are_among, distinct, numbered
 from colladaphy.links.affine import skew_matrix, stretch_of
 from colladaphy.links.rules import NOT_RIGID, SEVERAL_PLACES
 from colladaphy.links.steps import matrix_of, own_transforms
@@ -20,7 +20,6 @@ from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.context import Context, FloatRows
 from colladaphy.meaning.hits import Hit
 from colladaphy.meaning.node_table import Nodes, nodes_of, odd_transforms
-from colladaphy_schema.rows import Rows
 from colladaphy_schema.scene_columns import NodeTypeRows
 
 __all__ = ["CHECKS", "doubtful"]
@@ -177,19 +176,15 @@ def _scenes_of(context: Context, instances: Array) -> Array:
     What stands in a model that is instanced once, and that in a scene, stands in that scene.
     """
     above = context.ancestor(instances, "physics_scene", "physics_model")
-    holders = context.rows(Rows, "instance_physics_model")
-    assert holders.ordinals is not None
-    outer = context.ancestor(holders.ordinals, "physics_scene", "physics_model")
     inner = context.led("instance_physics_model", "url")
-    targets, counts = np.unique(inner[inner >= 0], return_counts=True)
-    once = set(targets[counts == 1].tolist())
-    around = {
-        model: scene
-        for model, scene in zip(inner.tolist(), outer.tolist(), strict=True)
-        if model in once
-    }
-    if not np.isin(above, list(around)).any():
+    holders = context.ordinals("instance_physics_model")[inner >= 0]
+    inner = inner[inner >= 0]
+    first, which = numbered(inner)
+    once = first[np.bincount(which) == 1]
+    if not are_among(above, inner[once]).any():
         return above
+    outer = context.ancestor(holders[once], "physics_scene", "physics_model")
+    around = dict(zip(inner[once].tolist(), outer.tolist(), strict=True))
     found = []
     for model in above.tolist():
         known: set[int] = set()
@@ -208,7 +203,7 @@ def nowhere(context: Context) -> Iterator[Hit]:
     nodes = nodes_of(context)
     if not nodes.shown:
         return
-    doubtful = (nodes.moved >= 0) & ~np.isin(context.parent[nodes.moved], list(nodes.shown))
+    doubtful = (nodes.moved >= 0) & ~are_among(context.parent[nodes.moved], nodes.shown)
     lost = [
         (instance, target)
         for instance, target in zip(

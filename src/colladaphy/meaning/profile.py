@@ -9,7 +9,7 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
-from colladaphy.columns.distinct import distinct
+from colladaphy.columns.distinct import distinct, numbered
 from colladaphy.findings import Finding, Severity
 from colladaphy.links.names import COLLADA, PE
 from colladaphy.meaning import profile_rules
@@ -84,9 +84,9 @@ def places(context: Context) -> Iterator[Hit]:
         elements, techniques = elements[techniques >= 0], techniques[techniques >= 0]
         if not len(elements):
             continue
-        different, inverse = np.unique(techniques, return_inverse=True)
-        numbers, texts = context.columns.factorized(context.at(Rows, different), "profile")
-        ours = np.array([text == "pe" for text in texts], np.bool_)[numbers][inverse.reshape(-1)]
+        first, inverse = numbered(techniques)
+        numbers, texts = context.columns.factorized(context.at(Rows, techniques[first]), "profile")
+        ours = np.array([text == "pe" for text in texts], np.bool_)[numbers][inverse]
         for row in np.flatnonzero(~ours).tolist():
             if int(techniques[row]) in told:
                 continue

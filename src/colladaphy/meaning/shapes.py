@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.distinct import distinct
+from colladaphy.columns.distinct import are_among, distinct, numbered
 from colladaphy.findings import Severity
 from colladaphy.meaning import physics_rules
 from colladaphy.meaning.body_table import bodies_of
@@ -85,10 +85,9 @@ def masses(context: Context) -> Iterator[Hit]:
 def _weightless(context: Context, empty: Array) -> Iterator[Hit]:
     """Shapes of mass zero in bodies that have no other mass."""
     shapes, bodies = shapes_of(context), bodies_of(context)
-    heavy = np.ones(len(bodies.elements), np.bool_)
-    holders, counts = np.unique(shapes.holders, return_counts=True)
-    light = np.bincount(shapes.holders, empty, minlength=len(heavy))
-    heavy[holders] = light[holders] < counts
+    count = len(bodies.elements)
+    light = np.bincount(shapes.holders, empty, minlength=count)
+    heavy = light < np.bincount(shapes.holders, minlength=count)
     for row in np.flatnonzero(empty & ~heavy[shapes.holders]).tolist():
         holder = int(shapes.holders[row])
         mine = bodies.instances(holder)
@@ -186,9 +185,9 @@ def _partly(context: Context) -> dict[int, int]:
     weighed = np.zeros(len(bodies.elements), np.bool_)
     weighed[shapes.holders[stated]] = True
     silent = ~stated & (weighed & (bodies.mass_elements < 0))[shapes.holders]
-    holders, first = np.unique(shapes.holders[silent], return_index=True)
-    rows = np.flatnonzero(silent)[first]
-    return dict(zip(holders.tolist(), rows.tolist(), strict=True))
+    rows = np.flatnonzero(silent)
+    rows = rows[numbered(shapes.holders[rows])[0]]
+    return dict(zip(shapes.holders[rows].tolist(), rows.tolist(), strict=True))
 
 
 def _light(context: Context, row: int, shape: int) -> Hit:
@@ -205,19 +204,19 @@ def _profiled(context: Context) -> Array:
     made = np.zeros(len(bodies.elements), np.bool_)
     techniques = context.ordinals("technique")
     above = context.parent[techniques]
-    made[np.isin(bodies.elements, above)] = True
+    made[are_among(bodies.elements, above)] = True
     extra = context.parent[np.maximum(above, 0)]
     materials = distinct(extra[context.is_named(extra, "physics_material")])
     if len(materials):
         users = context.rows(Rows, "instance_physics_material")
         assert users.ordinals is not None
         targets = context.led("instance_physics_material", "url")
-        mine = users.ordinals[np.isin(targets, materials)]
+        mine = users.ordinals[are_among(targets, materials)]
         inline = materials[context.is_within(materials, "shape", "technique_common")]
         holders = context.ancestor(
             np.concatenate([mine, inline]), "rigid_body", "instance_rigid_body"
         )
-        found = np.isin(bodies.elements, holders)
+        found = are_among(bodies.elements, holders)
         made |= found
         made[bodies.body[found & (bodies.body >= 0)]] = True
     return made

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.distinct import distinct
+from colladaphy.columns.distinct import are_among, distinct
 from colladaphy.links.poses import DEGREE, Poses, unit_quaternions
 from colladaphy.meaning.body_table import bodies_of
 from colladaphy.meaning.comparing import DIGITS, TURN, matched, old
@@ -46,7 +46,7 @@ def motions(context: Context) -> Iterator[Hit]:
     models = context.ordinals("instance_physics_model")
     nested = models[context.is_within(models, "physics_model")]
     around = context.parent[holders]
-    good = (targets >= 0) & ~np.isin(around, parents) & ~np.isin(around, nested)
+    good = (targets >= 0) & ~are_among(around, parents) & ~are_among(around, nested)
     if unclear:
         good[good] = [not unclear & set(nodes.chain(node)) for node in targets[good].tolist()]
     elements, holders, targets = elements[good], holders[good], targets[good]
@@ -108,8 +108,8 @@ def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Arra
     inherited = ~own & (body >= 0)
     source = np.where(inherited, body, rows)
     frames = context.ancestor(context.ordinals("mass_frame"), "rigid_body", "instance_rigid_body")
-    framed = np.isin(instances, frames)
-    framed |= inherited & np.isin(bodies.elements[source], frames)
+    framed = are_among(instances, frames)
+    framed |= inherited & are_among(bodies.elements[source], frames)
     begin = np.searchsorted(holders, source)
     single = np.searchsorted(holders, source, side="right") - begin == 1
     made = Poses.none(len(instances))
@@ -121,10 +121,10 @@ def _inner_poses(context: Context, instances: Array) -> tuple[Poses, Array, Arra
     if shapes.faults:  # how a rod is turned cannot be told of one that is none
         sized = np.array([element for element, _, _ in shapes.faults], np.int64)
         unclear += context.ancestor(sized, "shape").tolist()
-    clear[mine] = ~np.isin(shapes.elements[shape], unclear)
+    clear[mine] = ~are_among(shapes.elements[shape], unclear)
     planes = context.children(shapes.rows, "plane", Rows).owner
-    flat |= np.isin(source, shapes.holders[planes])  # turned as its normal says
-    plane = np.isin(shape, planes)
+    flat |= are_among(source, shapes.holders[planes])  # turned as its normal says
+    plane = are_among(shape, planes)
     mine, shape = mine[~plane], shape[~plane]
     # The body of a mesh stands at its centre of mass.
     is_mesh = np.zeros(len(shapes.elements), np.bool_)

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import are_among
 from colladaphy.links.poses import DEGREE, reach, rotate_vectors, unit_quaternions
 from colladaphy.meaning import profile_rules
 from colladaphy.meaning.comparing import DIGITS, TURN, are_numbers, differing, matched, old, same
@@ -100,7 +101,7 @@ def members(context: Context) -> Iterator[Hit]:
     odd[shapes.mesh_rows] = True
     odd[context.children(shapes.rows, "plane", Rows).owner] = True
     if unclear := unclear_nodes(context):
-        odd |= np.isin(shapes.elements, list(unclear))
+        odd |= are_among(shapes.elements, unclear)
     mine, rows = mine[~odd[rows]], rows[~odd[rows]]
     elements = elements[mine]
     kept, sizes, _, good = places.whole(elements)
@@ -149,7 +150,7 @@ def springs(context: Context) -> Iterator[Hit]:
         found = context.children(outer, kind.partition("_")[0], Rows)
         own = common.owner[outer.owner[found.owner]]
         mine, at = matched(rows.ordinals, profile.holders(elements))
-        alone = ~np.isin(at, own)
+        alone = ~are_among(at, own)
         for element, row in zip(elements[mine[alone]].tolist(), at[alone].tolist(), strict=True):
             message = f"The {what} of the pe profile is not in the common profile."
             holder = int(rows.ordinals[row])
@@ -166,7 +167,7 @@ def springs(context: Context) -> Iterator[Hit]:
             holders = profile.holders(kept)
             mine, at = matched(rows.ordinals[own], holders)
             others = np.where(places[at] >= 0, places[at], holders[mine])
-            among = ~np.isin(around[mine], told) & (np.abs(values[mine])[:, 0] <= 1e300)
+            among = ~are_among(around[mine], told) & (np.abs(values[mine])[:, 0] <= 1e300)
             name_of = f"{name.replace('_', ' ')} of the {what}"
             hits = list(differing(name_of, kept[mine], stated[at], values[mine], others, among))
             elements = np.array([hit.element for hit in hits], np.int64)
@@ -186,8 +187,8 @@ def frames(context: Context) -> Iterator[Hit]:
         mine, rows = matched(table.elements, profile.holders(elements))
         attachments = table.attachments[rows, side]
         # Of a plane, the frame is in the pose of its normal.
-        good = (attachments >= 0) & ~np.isin(table.bodies[rows, side], flat)
-        good &= ~np.isin(attachments, list(unclear))
+        good = (attachments >= 0) & ~are_among(table.bodies[rows, side], flat)
+        good &= ~are_among(attachments, unclear)
         places = Kept(context, "position", 3, name)
         turns = Kept(context, "orientation", 4, name)
         for each in (places, turns):

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.distinct import rows_among
+from colladaphy.columns.distinct import numbered, rows_among
 from colladaphy.columns.spans import places_of
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.face_table import Faces, faces_of
@@ -204,11 +204,8 @@ class _Edges:
         made = np.ones(len(self.consistent), np.bool_)
         left = np.flatnonzero(~self.consistent[self._mine] & (self._from != self._to))
         one, other = self._from[left], self._to[left]
-        _, first, counts = np.unique(
-            np.minimum(one, other) * width + np.maximum(one, other), return_index=True,
-            return_counts=True,
-        )  # fmt: skip
-        made[self._mine[left[first[counts % 2 == 1]]]] = False
+        first, which = numbered(np.minimum(one, other) * width + np.maximum(one, other))
+        made[self._mine[left[first[np.bincount(which) % 2 == 1]]]] = False
         return made
 
     def dents(self, points: Array, wanted: Array) -> Array:

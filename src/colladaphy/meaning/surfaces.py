@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import are_among
 from colladaphy.meaning import geometry_rules
 from colladaphy.meaning.context import Context
 from colladaphy.meaning.hits import Hit
@@ -67,8 +68,8 @@ def faces(context: Context) -> Iterator[Hit]:
         return
     there = context.ordinals("triangles", "polygons", "polylist", "trifans", "tristrips")
     others = context.ordinals("mesh", "spline", "brep")
-    lacking = np.isin(shapes.geometries, context.parent[others])
-    lacking &= ~np.isin(shapes.geometries, context.ancestor(there, "geometry"))
+    lacking = are_among(shapes.geometries, context.parent[others])
+    lacking &= ~are_among(shapes.geometries, context.ancestor(there, "geometry"))
     for place in np.flatnonzero(lacking).tolist():
         row, geometry = int(shapes.mesh_rows[place]), int(shapes.geometries[place])
         content = _content(context, geometry, "mesh", "spline", "brep")

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from colladaphy.columns.distinct import are_among
 from colladaphy.findings import Severity
 from colladaphy.links.rules import MISSING
 from colladaphy.meaning import link_rules, scene_rules
@@ -49,7 +50,7 @@ class _Parameters:
 def _values(context: Context, parameters: Array) -> dict[int, int]:
     """The value of each parameter."""
     found: dict[int, int] = {}
-    for element in np.flatnonzero(np.isin(context.parent, parameters)).tolist():
+    for element in np.flatnonzero(are_among(context.parent, parameters)).tolist():
         if context.name(element) not in _ABOUT:
             found.setdefault(int(context.parent[element]), element)
     return found
