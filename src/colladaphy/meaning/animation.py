@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from collections.abc import Iterator
 from typing import Any
 
@@ -287,12 +288,19 @@ def _inner(
         found = context.resource.sids.within(scope, sid)
         if found is not None:
             return found, member
-    end = context.columns.end_of(scope)
     for sid, member in spellings:
-        for element in context.shared(_of_techniques).get(sid, ()):
-            if scope < element < end:
-                return element, member
+        elements = context.shared(_of_techniques).get(sid, [])
+        place = bisect_right(elements, scope)  # the first behind it is in it, or none is
+        if place < len(elements) and _is_in(context, elements[place], scope):
+            return elements[place], member
     return None, ""
+
+
+def _is_in(context: Context, element: int, scope: int) -> bool:
+    """Whether an element that comes after another one stands in it."""
+    while element > scope:
+        element = int(context.parent[element])
+    return element == scope
 
 
 def _of_techniques(context: Context) -> dict[str, list[int]]:

@@ -122,7 +122,6 @@ class Accessors:
     """All accessors of a document, one a row, in its order."""
 
     def __init__(self, context: Context) -> None:
-        self._context = context
         rows = context.rows(AccessorRows, "accessor")
         assert rows.ordinals is not None
         arrays = arrays_of(context)

@@ -25,15 +25,12 @@ def layers(context: Context) -> Iterator[Hit]:
         for text in context.texts(context.rows(Rows, "node"), "layer")
         for word in (text or "").split()
     }
+    more = f" There are: {listed(sorted(known))}." if known else ""
     assert rows.ordinals is not None
     for element, text in zip(rows.ordinals.tolist(), rows.value, strict=True):
         name = text.strip()
-        if name in known:
-            continue
-        message = f"No node is in the layer {name!r}."
-        if known:
-            message += f" There are: {listed(sorted(known))}."
-        yield Hit(scene_rules.LAYER, element, message)
+        if name not in known:
+            yield Hit(scene_rules.LAYER, element, f"No node is in the layer {name!r}.{more}")
 
 
 CHECKS = (layers,)

@@ -183,10 +183,8 @@ class Instanced:
         self.parts: Array = self._directly(kind)
         """(n,) the elements that they name, in this document; -1 for none."""
         for row in np.flatnonzero(self.parts < 0).tolist():
-            sid, model = (
-                self.texts[row].rpartition("/")[2],
-                parts.model(home, int(self.around[row])),
-            )
+            sid = self.texts[row].rpartition("/")[2]
+            model = parts.model(home, int(self.around[row]))
             if model is None:  # which is reported at its instance
                 continue
             if model[0] is home:

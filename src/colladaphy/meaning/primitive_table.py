@@ -37,7 +37,6 @@ class Primitives:
     """All primitives of a document, one a row, and all of their lists of indices."""
 
     def __init__(self, context: Context) -> None:
-        self._context = context
         every = [context.rows(CountRows, name) for name in PRIMITIVES]
         sizes = [len(rows) for rows in every]
         self.elements: Array = np.concatenate([_ordinals(rows) for rows in every])

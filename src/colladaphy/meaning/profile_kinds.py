@@ -44,14 +44,14 @@ def kinds(context: Context) -> Iterator[Hit]:
     wrong = (meant[:, 0] >= 0) & (meant != np.column_stack(free)).any(axis=1)
     told = old_limits(context) if wrong.any() else {}
     for row in np.flatnonzero(wrong).tolist():
-        if int(table.elements[rows[row]]) in told:
+        holder = int(table.elements[rows[row]])
+        if holder in told:
             continue  # the limits are others than they were
         shifts, turns = free[0][row], free[1][row]
         message = (
             f"The kind is {texts[numbers[row]]}, but by the limits {shifts} axes shift and "
             f"{turns} turn."
         )
-        holder = int(table.elements[rows[row]])
         yield Hit(profile_rules.OLD_VALUE, int(elements[mine[row]]), message, (holder,), "kind")
 
 

@@ -33,7 +33,8 @@ def convex_meshes(context: Context) -> Iterator[Hit]:
     surfaces = surfaces_of(context)
     geometries = context.parent[elements].astype(np.int64)
     rows = surfaces.rows_of(geometries)
-    doubtful = _without_volume(surfaces) | (surfaces.volumes < 0.0)
+    empty = _without_volume(surfaces)
+    doubtful = empty | (surfaces.volumes < 0.0)
     doubtful |= surfaces.dents > _TOLERANCE * surfaces.extents
     doubtful = np.append(doubtful, False)[rows] & ~stated
     for place in np.flatnonzero(doubtful).tolist():
@@ -43,7 +44,7 @@ def convex_meshes(context: Context) -> Iterator[Hit]:
             message, rule = f"The convex mesh of {name} has holes.", geometry_rules.OPEN
         elif not surfaces.consistent[row]:
             message, rule = f"Faces of {name} are wound both ways.", geometry_rules.MIXED_WINDING
-        elif _without_volume(surfaces)[row]:
+        elif empty[row]:
             message = f"The convex mesh of {name} has no volume."
             rule = geometry_rules.NO_VOLUME
         elif surfaces.volumes[row] < 0.0:
