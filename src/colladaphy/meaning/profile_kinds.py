@@ -87,9 +87,10 @@ def pairs(context: Context) -> Iterator[Hit]:
     """Pairs of the same materials, in whichever order."""
     elements = profile_of(context).elements("pair")
     seen: dict[tuple[int, frozenset[str]], int] = {}
-    for element in elements.tolist():
-        names = {context.columns.attribute_of(element, key) or "" for key in ("first", "second")}
-        first = seen.setdefault((int(context.parent[element]), frozenset(names)), element)
+    around = context.parent[elements].tolist()
+    named = [context.texts(context.at(Rows, elements), key) for key in ("first", "second")]
+    for element, outer, *names in zip(elements.tolist(), around, *named, strict=True):
+        first = seen.setdefault((outer, frozenset(name or "" for name in names)), element)
         if first != element:
             message = "There is a pair of the same materials already."
             yield Hit(profile_rules.TWICE, element, message, (first,))

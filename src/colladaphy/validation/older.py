@@ -56,11 +56,16 @@ def _surfaces(tree: etree._ElementTree) -> Iterator[Told]:
             found = etree.QName(target).localname
             message = f"{name!r} is a <{found}>, not an <image>."
             yield element, WRONG_TYPE, message, Severity.WARNING
+    known: dict[etree._Element, set[str | None]] = {}
     for sources in texts.values():
         for element in sources:
             name = (element.text or "").strip()
             effect = next(element.iterancestors(NS + "effect"), None)
-            if effect is None or name in _surfaces_of(effect):
+            if effect is None:
+                continue
+            if effect not in known:
+                known[effect] = _surfaces_of(effect)
+            if name in known[effect]:
                 continue
             message = f"There is no surface of the sid {name!r} in the effect."
             yield element, MISSING, message, Severity.WARNING
