@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.texts import Ranges, hashes_of
+from colladaphy.columns.factors import hashes_of
+from colladaphy.columns.texts import Ranges
 
 __all__ = ["Identifiers"]
 

@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from colladaphy.columns.distinct import distinct
+from colladaphy.columns.factors import factors_of
 from colladaphy.columns.index import Index
 from colladaphy.columns.names import NotPlain
 from colladaphy.columns.tags import Tags
-from colladaphy.columns.texts import Ranges, factors_of
+from colladaphy.columns.texts import Ranges
 
 __all__ = ["codes_by_name"]
 

@@ -10,28 +10,26 @@ import numpy as np
 from lxml import etree
 from numpy.typing import NDArray
 
+from colladaphy.columns.factors import factors_of
 from colladaphy.columns.identifiers import Identifiers
 from colladaphy.columns.index import BLOCK, Index, NotPlain
 from colladaphy.columns.namespaces import codes_by_name
 from colladaphy.columns.places import Place, Places
 from colladaphy.columns.plain import Tree, plain, serialised
 from colladaphy.columns.tags import Tags
-from colladaphy.columns.texts import Ranges, factors_of, strings_of
+from colladaphy.columns.texts import Ranges, strings_of
 from colladaphy.columns.values import Spelling, column_of
-from colladaphy.columns.words import LOW
 from colladaphy_schema.rows import Child, Column, Rows
 
 __all__ = ["Document"]
 
 Array = NDArray[Any]
 R = TypeVar("R", bound=Rows)
-U = np.uint64
 
-_TECHNIQUE = "{http://www.collada.org/2008/03/COLLADASchema}technique"
-_EXTRA = "{http://www.collada.org/2008/03/COLLADASchema}extra"
+_COLLADA = "{http://www.collada.org/2008/03/COLLADASchema}"
+_TECHNIQUE, _EXTRA = f"{_COLLADA}technique", f"{_COLLADA}extra"
 _FEW = 24
 """Attributes of an element that are looked at one after the other."""
-_FIRST, _BLANK, _BYTE = U(0xFF), U(32), U(8)
 
 
 class Document:
@@ -167,22 +165,24 @@ class Document:
     @cached_property
     def identifiers(self) -> Identifiers:
         """The ids, to be matched with references."""
-        return Identifiers(*self._identified("id"))
+        elements, ranges = self._holders("id")
+        return Identifiers(elements, ranges.part(0, 0) if self._entities else ranges)
 
     @cached_property
     def scoped_identifiers(self) -> Identifiers:
         """The sids, those of one element being a scope."""
-        elements, ranges = self._identified("sid")
-        return Identifiers(elements, ranges, self.index.parent[elements])
+        elements, ranges = self._holders("sid")
+        scopes = self.index.parent[elements]
+        return Identifiers(elements, ranges.part(0, 0) if self._entities else ranges, scopes)
 
-    def _identified(self, name: str) -> tuple[Array, Ranges]:
-        """The elements that have an attribute, and its values; without these where entities are."""
+    def _holders(self, name: str) -> tuple[Array, Ranges]:
+        """The elements that have an attribute, and its values; not those in foreign techniques."""
         every = self.index.attributed
         rows = Rows(len(every), owners=len(every), origin=self, ordinals=every)
         there, ranges = self._attribute(rows, name)
         found = every if there is None else every[there]
         mine = np.flatnonzero(~self._is_foreign(found))
-        return found[mine], ranges.part(0, 0) if self._entities else ranges.take(mine)
+        return found[mine], ranges.take(mine)
 
     def strings(self, ranges: Ranges) -> list[str]:
         """The values of attributes that are tokens."""
@@ -192,13 +192,8 @@ class Document:
 
     def with_attribute(self, name: str) -> tuple[Array, list[str]]:
         """The elements that have an attribute, and its values; not those in foreign techniques."""
-        every = self.index.attributed
-        rows = Rows(len(every), owners=len(every), origin=self, ordinals=every)
-        there, ranges = self._attribute(rows, name)
-        found = every if there is None else every[there]
-        mine = np.flatnonzero(~self._is_foreign(found))
-        texts = strings_of(ranges.take(mine), "token", attribute=True, entities=self._entities)
-        return found[mine], texts
+        elements, ranges = self._holders(name)
+        return elements, self.strings(ranges)
 
     def parent_of(self, element: int) -> int:
         """The element around one; -1 for the root."""
@@ -366,7 +361,7 @@ class Document:
         for pair in range(0, min(int(count.max(initial=0)), 2 * _FEW), 2):
             todo = todo[count[todo] > pair]
             opens = places[first[todo] + pair].astype(np.int64)
-            same = self._ends_with(opens - 1, key)
+            same = self.index.words.end_with(opens - 1, key)
             here = todo[same]
             start[here] = opens[same] + 1
             stop[here] = places[first[here] + pair + 1]
@@ -376,7 +371,7 @@ class Document:
             more = (count[todo] - 2 * _FEW) // 2
             number = np.arange(int(more.sum())) - np.repeat(np.cumsum(more) - more, more)
             at = np.repeat(first[todo], more) + 2 * (number + _FEW)
-            same = self._ends_with(places[at].astype(np.int64) - 1, key)
+            same = self.index.words.end_with(places[at].astype(np.int64) - 1, key)
             here = np.repeat(todo, more)[same]
             start[here] = places[at[same]] + 1
             stop[here] = places[at[same] + 1]
@@ -402,21 +397,3 @@ class Document:
         quote += 2 * number.astype(quote.dtype)
         places = index.quote_places
         return there, Ranges(index.words, places[quote] + 1, places[quote + 1])
-
-    def _ends_with(self, ends: Array, key: bytes) -> Array:
-        """Whether a key, with a blank before it, ends at each place."""
-        every = self.index.words
-        # The blank before the key and seven bytes of it, then the rest.
-        start = ends - len(key) - 1
-        same = start > 0
-        start = np.maximum(start, 0)
-        words = every.at(start)
-        same &= (words & _FIRST) <= _BLANK
-        first = key[:7]
-        words >>= _BYTE
-        same &= (words & LOW[len(first)]) == U(int.from_bytes(first, "little"))
-        for place in range(7, len(key), 8):
-            part = key[place : place + 8]
-            words = every.at(start + (place + 1)) & LOW[len(part)]
-            same &= words == U(int.from_bytes(part, "little"))
-        return np.asarray(same)

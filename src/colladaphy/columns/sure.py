@@ -8,7 +8,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from colladaphy.columns.texts import Ranges, factors_of, plain_numbers_of
+from colladaphy.columns.factors import factors_of
+from colladaphy.columns.texts import Ranges, plain_numbers_of
 from colladaphy_schema.rows import Column
 
 __all__ = ["unsure", "unsure_texts"]

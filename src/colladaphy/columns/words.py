@@ -14,6 +14,7 @@ U = np.uint64
 
 LOW: Final = np.array([(1 << (8 * k)) - 1 for k in range(8)] + [2**64 - 1], dtype=U)
 """Masks of the first k bytes of a little-endian word."""
+_FIRST, _BLANK, _BYTE = U(0xFF), U(32), U(8)
 _SEVEN, _ONE, _THREE, _TURN = 7, U(1), U(3), U(63)
 
 
@@ -76,6 +77,23 @@ class Words:
         words[inner] = self._inner(places[inner])
         words[~inner] = self._rest[np.minimum(places[~inner] - self._edge, 24)]
         return words
+
+    def end_with(self, ends: Array, key: bytes) -> Array:
+        """Whether a key, with a blank before it, ends at each place (n,)."""
+        # The blank before the key and seven bytes of it, then the rest.
+        start = ends - len(key) - 1
+        same = start > 0
+        start = np.maximum(start, 0)
+        words = self.at(start)
+        same &= (words & _FIRST) <= _BLANK
+        first = key[:7]
+        words >>= _BYTE
+        same &= (words & LOW[len(first)]) == U(int.from_bytes(first, "little"))
+        for place in range(7, len(key), 8):
+            part = key[place : place + 8]
+            words = self.at(start + (place + 1)) & LOW[len(part)]
+            same &= words == U(int.from_bytes(part, "little"))
+        return np.asarray(same)
 
     def _inner(self, places: Array) -> Array:
         number = places >> 3
