@@ -244,8 +244,8 @@ class Context:
         return kind(len(ordinals), owners=len(ordinals), origin=self.columns,
                     ordinals=np.asarray(ordinals, np.int32))  # fmt: skip
 
-    def numbered(self, elements: Array, wanted: Array) -> Array:
-        """Where some elements (m,) are among others (n,), of which the first counts; -1 if not."""
+    def places_in(self, elements: Array, wanted: Array) -> Array:
+        """Where each wanted one (n,) stands first among elements in any order; -1 for nowhere."""
         scratch = self.columns.index.scratch
         scratch[elements[::-1]] = np.arange(len(elements) - 1, -1, -1)
         found = np.where(wanted >= 0, scratch[wanted], -1)

@@ -104,7 +104,7 @@ class Inputs:
     def first(self, owners: Array, semantic: str) -> Array:
         """The same for many (n,)."""
         rows = np.flatnonzero(self.are(semantic))
-        at = self.context.numbered(self.owners[rows], owners)
+        at = self.context.places_in(self.owners[rows], owners)
         found: Array = np.append(rows, -1)[at]
         return found
 

@@ -36,10 +36,17 @@ def parts_of(context: Context) -> Parts:
     """The parts of the models of a document and of those that it refers to."""
     parts, rows = Parts(context.resource), context.rows(Rows, "instance_physics_model")
     assert rows.ordinals is not None
-    leads = context.leads("instance_physics_model", "url")
-    here = leads.plain & context.is_named(leads.targets, "physics_model")
-    parts.know(rows.ordinals[here].tolist(), leads.targets[here].tolist())
+    models = _own_models(context)
+    here = models >= 0
+    parts.know(rows.ordinals[here].tolist(), models[here].tolist())
     return parts
+
+
+def _own_models(context: Context) -> Array:
+    """The models (n,) of the document that instances of models refer to by ``#id``; -1 for none."""
+    leads = context.leads("instance_physics_model", "url")
+    good = leads.plain & context.is_named(leads.targets, "physics_model")
+    return np.where(good, leads.targets, -1)
 
 
 class Parts:
@@ -196,9 +203,7 @@ class Instanced:
         """Those that are named by the sid alone, of models of the document."""
         context, columns = self._context, self._context.columns
         models = context.ordinals("instance_physics_model")
-        leads = context.leads("instance_physics_model", "url")
-        good = leads.plain & context.is_named(leads.targets, "physics_model")
-        scopes = np.append(np.where(good, leads.targets, -1), -1)[rows_among(models, self.around)]
+        scopes = np.append(_own_models(context), -1)[rows_among(models, self.around)]
         there, ranges = columns.ranges(self._rows, self._attribute)
         every = np.full(len(self.elements), -1, np.int64)
         found = columns.scoped_identifiers.matched(

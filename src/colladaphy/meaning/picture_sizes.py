@@ -65,7 +65,7 @@ def levels(context: Context) -> Iterator[Hit]:
         return
     assert rows.ordinals is not None
     assert held.ordinals is not None
-    at = context.numbered(context.parent[held.ordinals], context.parent[rows.ordinals])
+    at = context.places_in(context.parent[held.ordinals], context.parent[rows.ordinals])
     most = np.where(held.levels.present, held.levels.values, 0.0)
     count = np.append(most, 0.0)[at]
     wrong = rows.level.present & (count > 0.0) & (rows.level.values >= count)

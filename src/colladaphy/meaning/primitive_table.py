@@ -46,7 +46,7 @@ class Primitives:
         """(n,) their counts, as they are written."""
         self.counts: Array = counted(self.said)
         inputs = inputs_of(context)
-        self.input_rows = context.numbered(self.elements, inputs.owners)
+        self.input_rows = context.places_in(self.elements, inputs.owners)
         """For each input the primitive that it belongs to; -1 for none."""
         mine = np.flatnonzero(self.input_rows >= 0)
         self.has_inputs = np.zeros(len(self.elements), np.bool_)
@@ -74,13 +74,13 @@ class Primitives:
         self.indices: Array = counted(self._said_indices) if large else self._said_indices
         """Those of all lists."""
         around = context.ancestor(self.list_elements, *PRIMITIVES)
-        self.list_owners: Array = context.numbered(self.elements, around)
+        self.list_owners: Array = context.places_in(self.elements, around)
         """(m,) the primitives that they belong to; -1 for none."""
 
     def _read_sizes(self, context: Context) -> None:
         rows = context.rows(IntegerRows, "vcount")
         elements = _ordinals(rows)
-        owners = context.numbered(self.elements, context.parent[elements].astype(np.int64))
+        owners = context.places_in(self.elements, context.parent[elements].astype(np.int64))
         mine = np.flatnonzero(owners >= 0)
         self._sizes = rows.value if len(rows) else None
         self.vcounts = np.full(len(self.elements), -1, np.int64)

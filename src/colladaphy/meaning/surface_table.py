@@ -91,7 +91,7 @@ def _parts(context: Context) -> Iterator[_Part]:
     vertices = context.ordinals("vertices")
     around = context.ancestor(vertices, "geometry")
     # The last ones of a geometry count.
-    at = context.numbered(around[::-1], faces.geometries)
+    at = context.places_in(around[::-1], faces.geometries)
     vertices = np.append(vertices[::-1], -1)[at].astype(np.int64)
     rows = np.append(inputs.sources, -1)[inputs.first(vertices, "POSITION")]
     good = (rows >= 0) & (faces.corner_counts > 0)
